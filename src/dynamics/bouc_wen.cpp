@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
-#include "dynamics/bouc_wen_life.hpp"
+#include "dynamics/bouc_wen_trajectory.hpp"
 #include "dynamics/integration.hpp"
 #include "dynamics/roots.hpp"
 
@@ -17,29 +17,29 @@ constexpr int N = max_root_order;
 class BoucWenIntegrator {
  public:
   BoucWenIntegrator(const Setup& setup, const Settings& settings, History* history)
-      : life_(setup, settings, history),
-        contact_(life_.contact),
+      : trajectory_(setup, settings, history),
+        contact_(trajectory_.contact),
         least_progress_s_(
             std::min(0.1 / setup.specimen.block.p_radps(),
-                     100 * std::sqrt(contact_.yield / std::max(contact_.strength * life_.gravity, 1e-6)))) {}
+                     100 * std::sqrt(contact_.yield / std::max(contact_.strength * trajectory_.gravity, 1e-6)))) {}
 
   Response run() {
-    while (!life_.finished()) {
+    while (!trajectory_.finished()) {
       step();
-      if (life_.watch.stalls(life_.cursor.time(), least_progress_s_)) life_.give_up();
+      if (trajectory_.watch.stalls(trajectory_.cursor.time(), least_progress_s_)) trajectory_.give_up();
     }
-    return life_.result();
+    return trajectory_.result();
   }
 
  private:
   using Series = dynamics::Series<double, N>;
 
   void step() {
-    const auto floor = life_.cursor.local<N>();
-    double h = life_.time_left();
+    const auto floor = trajectory_.cursor.local<N>();
+    double h = trajectory_.time_left();
     const Series force = holding_force(floor, h);
-    if (life_.direction == 0 && !set_out(floor, force, h)) return;
-    switch (life_.phase) {
+    if (trajectory_.direction == 0 && !set_out(floor, force, h)) return;
+    switch (trajectory_.phase) {
       case ContactPhase::elastic:
         return move_on<ContactPhase::elastic>(floor, force, h);
       case ContactPhase::yielding:
@@ -53,12 +53,12 @@ class BoucWenIntegrator {
 
   // G about the present instant; zero while g' is negative. Ends the step where g' changes its sign.
   Series holding_force(const Floor<double, N>& floor, double& h) const {
-    if (!life_.vertical) {
+    if (!trajectory_.vertical) {
       Series force = Series::zero();
       force[0] = contact_.strength * floor.g[0];
       return force;
     }
-    const ZeroTolerance zero{0, 1e-11 * life_.gravity};
+    const ZeroTolerance zero{0, 1e-11 * trajectory_.gravity};
     const bool presses = sign_after(floor.g, zero) > 0;
     double tau = 0;
     if (first_root(scaled(presses ? 1.0 : -1.0, floor.g), std::min(h, 1e3), zero, tau) && tau > 0) h = std::min(h, tau);
@@ -69,21 +69,21 @@ class BoucWenIntegrator {
   // null without effects.
   template <ContactPhase phase, class Use>
   void with_arc(const Floor<double, N>& floor, const Series& force, Use&& use) const {
-    const double s = life_.direction;
+    const double s = trajectory_.direction;
     BoucWenArc<N> arc;
-    arc.v[0] = s * life_.v;
-    arc.zeta[0] = s * life_.zeta;
-    arc.q[0] = life_.q;
+    arc.v[0] = s * trajectory_.v;
+    arc.zeta[0] = s * trajectory_.zeta;
+    arc.q[0] = trajectory_.q;
     arc.slip[0] = 0;
     const Series push = scaled(s, floor.a);
-    if (life_.laws) {
-      const BoucWenStart start{life_.cursor.time(), life_.slip, life_.path(), life_.direction,
+    if (trajectory_.laws) {
+      const BoucWenStart start{trajectory_.cursor.time(), trajectory_.slip, trajectory_.path(), trajectory_.direction,
                                phase == ContactPhase::returning};
-      BoucWenLawHold<N> hold(*life_.laws, life_.law_state, start, contact_, arc, force, floor.g);
+      BoucWenLawHold<N> hold(*trajectory_.laws, trajectory_.law_state, start, contact_, arc, force, floor.g);
       fill<phase>(arc, push, contact_, hold);
       use(arc, &hold);
     } else {
-      const bool constant = !life_.vertical;
+      const bool constant = !trajectory_.vertical;
       fill<phase>(arc, push, contact_,
                   [&](int k) { return constant ? force[0] * arc.zeta[k] : product(force, arc.zeta, k); });
       use(arc, static_cast<const BoucWenLawHold<N>*>(nullptr));
@@ -92,30 +92,30 @@ class BoucWenIntegrator {
 
   // From a standstill. False: nothing moves, up to the next knot or kink of a law.
   bool set_out(const Floor<double, N>& floor, const Series& force, double h) {
-    life_.direction = 1;
-    life_.law_state.side = (life_.zeta > 0) - (life_.zeta < 0);
+    trajectory_.direction = 1;
+    trajectory_.law_state.side = (trajectory_.zeta > 0) - (trajectory_.zeta < 0);
     int towards = 0, kink = -1;
     with_arc<ContactPhase::elastic>(floor, force, [&](const auto& arc, const auto* hold) {
-      towards = sign_after(arc.v, {1, life_.force_zero()});
+      towards = sign_after(arc.v, {1, trajectory_.force_zero()});
       if (towards == 0 && hold) kink = first_kink(*hold, h);
     });
-    life_.direction = 0;
+    trajectory_.direction = 0;
     if (towards != 0) {
-      life_.set_out(towards);
+      trajectory_.set_out(towards);
       return true;
     }
-    life_.stand(h);
-    if (kink >= 0) life_.law_state.turn_kink(kink);
+    trajectory_.stand(h);
+    if (kink >= 0) trajectory_.law_state.turn_kink(kink);
     return false;
   }
 
   // The first kink of a law within tau, which becomes its time; -1: none.
   int first_kink(const BoucWenLawHold<N>& hold, double& tau) const {
     int first = -1;
-    for (int j = 0; j < life_.laws->tape.kink_count(); ++j) {
+    for (int j = 0; j < trajectory_.laws->tape.kink_count(); ++j) {
       double at = tau;
-      if (life_.law_state.watches(j) && first_root(past_instant(hold.kink(j), life_.instant_s), tau, {0, 0.0}, at) &&
-          (first < 0 || at < tau))
+      if (trajectory_.law_state.watches(j) &&
+          first_root(past_instant(hold.kink(j), trajectory_.instant_s), tau, {0, 0.0}, at) && (first < 0 || at < tau))
         first = j, tau = at;
     }
     return first;
@@ -141,9 +141,9 @@ class BoucWenIntegrator {
       double at = tau;
       if (first_root(series, tau, zero, at) && (what == What::none || at < tau)) what = event, tau = at;
     };
-    watch(What::turns, arc.v, {1, life_.force_zero()});
+    watch(What::turns, arc.v, {1, trajectory_.force_zero()});
     if constexpr (phase == ContactPhase::elastic || phase == ContactPhase::returning) {
-      const ZeroTolerance zero{2, life_.force_zero() / contact_.yield};
+      const ZeroTolerance zero{2, trajectory_.force_zero() / contact_.yield};
       Series below = scaled(-1.0, arc.zeta);
       if (hold && below[0] > 0) watch(What::crosses_zero, below, zero);
       below[0] += phase == ContactPhase::elastic ? contact_.linear : -contact_.linear;
@@ -151,34 +151,34 @@ class BoucWenIntegrator {
     }
     const int kink = hold ? first_kink(*hold, tau) : -1;
     if (kink >= 0) what = What::kink;
-    const bool at_knot = what == What::none && h == life_.cursor.left();
+    const bool at_knot = what == What::none && h == trajectory_.cursor.left();
     if (hold)
-      for (int i = 0; i < life_.laws->states; ++i)
-        life_.law_state.states[static_cast<std::size_t>(i)] = hold->state_at(i, tau);
-    life_.arrive(arc, floor, tau);
+      for (int i = 0; i < trajectory_.laws->states; ++i)
+        trajectory_.law_state.states[static_cast<std::size_t>(i)] = hold->state_at(i, tau);
+    trajectory_.arrive(arc, floor, tau);
     resolve<phase>(what, kink);
-    if (at_knot) life_.next_segment();
+    if (at_knot) trajectory_.next_segment();
   }
 
   template <ContactPhase phase>
   void resolve(What what, int kink) {
-    if (what == What::passes) return life_.pass();
-    if (what == What::turns) return life_.turn();
+    if (what == What::passes) return trajectory_.pass();
+    if (what == What::turns) return trajectory_.turn();
     if (what == What::crosses_zero) {
-      life_.zeta = 0;
-      life_.law_state.side = life_.direction;
+      trajectory_.zeta = 0;
+      trajectory_.law_state.side = trajectory_.direction;
     }
-    if (what == What::kink) life_.law_state.turn_kink(kink);
-    if (phase == ContactPhase::yielding && 1 - life_.q <= contact_.saturated) life_.saturate();
+    if (what == What::kink) trajectory_.law_state.turn_kink(kink);
+    if (phase == ContactPhase::yielding && 1 - trajectory_.q <= contact_.saturated) trajectory_.saturate();
   }
 
   // Largest step at which the last terms of the series are within the tolerance. Speeds are measured by that of the ringing, of a
   // floor that lets go by a thousandth of what it is where friction is the weight: nothing rings there, and steps need not shrink.
   double accurate_step(const BoucWenArc<N>& arc, double force, const BoucWenLawHold<N>* hold) const {
-    const double rate = std::sqrt(std::max(force, 1e-6 * life_.gravity) / contact_.yield);
+    const double rate = std::sqrt(std::max(force, 1e-6 * trajectory_.gravity) / contact_.yield);
     double last = std::max(std::abs(arc.zeta[N]), std::abs(arc.v[N]) / (rate * contact_.yield));
     if (hold) last = std::max(last, hold->last_state(contact_.yield * std::max(1.0, rate)));
-    return last > 0 ? std::pow(life_.settings.tolerance / last, 1.0 / N) : 1 / rate;
+    return last > 0 ? std::pow(trajectory_.settings.tolerance / last, 1.0 / N) : 1 / rate;
   }
 
   // The series of q are, at worst, those of exp(n ln zeta), of which order N sees no more than this.
@@ -189,11 +189,11 @@ class BoucWenIntegrator {
 
   // Sliding is exact over any time; twice the time to the stop is enough, where the floor is still.
   double stopping_time(const BoucWenArc<N>& arc) const {
-    return life_.cursor.motion_over() && arc.v[1] < 0 ? -2 * arc.v[0] / arc.v[1]
-                                                      : std::numeric_limits<double>::infinity();
+    return trajectory_.cursor.motion_over() && arc.v[1] < 0 ? -2 * arc.v[0] / arc.v[1]
+                                                            : std::numeric_limits<double>::infinity();
   }
 
-  BoucWenLife life_;
+  BoucWenTrajectory trajectory_;
   const BoucWenContact& contact_;
   // A law that is far stiffer than the contact takes steps that come no further, as in Integration::stop_when_done(): the contact itself, at
   // a hundred steps a ring, goes through a hundred rings in ten thousand.

@@ -17,7 +17,7 @@
 #include <memory>
 
 #include "dynamics/bouc_wen.hpp"
-#include "dynamics/bouc_wen_life.hpp"
+#include "dynamics/bouc_wen_trajectory.hpp"
 
 namespace freestand::dynamics {
 namespace {
@@ -41,11 +41,11 @@ void check(int flag, const char* what) {
 class Reference {
  public:
   Reference(const Setup& setup, const Settings& settings, History* history)
-      : life_(setup, settings, history),
+      : trajectory_(setup, settings, history),
         law_(setup.specimen.bouc_wen),
         mu_(setup.specimen.friction.mu_k),
         strongest_(std::pow(law_.gamma + law_.beta, -1 / law_.exponent)),
-        rate_(std::sqrt(std::max(mu_, 1e-3) * life_.gravity / law_.yield_displacement_m)) {
+        rate_(std::sqrt(std::max(mu_, 1e-3) * trajectory_.gravity / law_.yield_displacement_m)) {
     SUNContext context = nullptr;
     check(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     context_.reset(context);
@@ -62,14 +62,14 @@ class Reference {
   }
 
   Response run() {
-    while (!life_.finished()) {
-      floor_ = life_.cursor.local<max_floor_degree>();
+    while (!trajectory_.finished()) {
+      floor_ = trajectory_.cursor.local<max_floor_degree>();
       if (sigma_ != 0 || set_out())
         go();
       else
         stand();
     }
-    return life_.result();
+    return trajectory_.result();
   }
 
  private:
@@ -92,7 +92,7 @@ class Reference {
     check(ERKStepSetMaxNumSteps(ark, 1000000), "ERKStepSetMaxNumSteps");
     // Peaks of the acceleration that are not at turns are taken at the ends of steps: one of a circular frequency w is low by (w h)^2/8 of
     // itself at most. That is 1/800 of the ringing; of floors and laws up to 25 Hz 5e-4 s leave 1/1300.
-    check(ERKStepSetMaxStep(ark, std::min(0.1 / rate_, life_.simple() ? 1e9 : 5e-4)), "ERKStepSetMaxStep");
+    check(ERKStepSetMaxStep(ark, std::min(0.1 / rate_, trajectory_.simple() ? 1e9 : 5e-4)), "ERKStepSetMaxStep");
     return arkode;
   }
 
@@ -102,9 +102,9 @@ class Reference {
   // The direction in which the block leaves a turn: that of its first acceleration that is not zero. False: none. What
   // changes slowly, the floor and the states of effects, is looked at again a microsecond later.
   bool set_out() {
-    const double zero = life_.force_zero();
+    const double zero = trajectory_.force_zero();
     sigma_ = 0;
-    side_ = (life_.zeta > 0) - (life_.zeta < 0);
+    side_ = (trajectory_.zeta > 0) - (trajectory_.zeta < 0);
     write();
     double rates[state_size], later[state_size];
     derivatives(0, N_VGetArrayPointer(y_.get()), rates);
@@ -117,31 +117,33 @@ class Reference {
       push = std::abs(rates[v]) <= 1e-3 * zero ? 0 : rates[v];
     }
     sigma_ = (push > 0) - (push < 0);
-    life_.direction = sigma_;
+    trajectory_.direction = sigma_;
     side_ = z_now() == 0 ? sigma_ : z_now() > 0 ? 1 : -1;
-    life_.law_state.side = side_;
+    trajectory_.law_state.side = side_;
     held_ = sigma_ * z_now() >= strongest_;
-    if (side_ == sigma_ && std::abs(life_.zeta) > life_.contact.sliding) life_.begin_slide(life_.cursor.time());
+    if (side_ == sigma_ && std::abs(trajectory_.zeta) > trajectory_.contact.sliding)
+      trajectory_.begin_slide(trajectory_.cursor.time());
     return sigma_ != 0;
   }
   // Nothing moves; looked at again at least every millisecond where a law may begin to, and where the floor lets go or
   // comes back.
   void stand() {
     record();
-    double h = std::min(life_.time_left(), life_.next_output()), at = 0;
-    if (life_.laws && !life_.cursor.motion_over()) h = std::min(h, 1e-3);
-    const ZeroTolerance zero{0, life_.force_zero()};
+    double h = std::min(trajectory_.time_left(), trajectory_.next_output()), at = 0;
+    if (trajectory_.laws && !trajectory_.cursor.motion_over()) h = std::min(h, 1e-3);
+    const ZeroTolerance zero{0, trajectory_.force_zero()};
     const double side = sign_after(floor_.g, zero) > 0 ? 1 : -1;
-    if (life_.vertical && first_root(scaled(side, floor_.g), std::min(h, 1e3), zero, at) && at > 0) h = std::min(h, at);
-    life_.stand(h);
+    if (trajectory_.vertical && first_root(scaled(side, floor_.g), std::min(h, 1e3), zero, at) && at > 0)
+      h = std::min(h, at);
+    trajectory_.stand(h);
   }
-  double z_now() const { return life_.zeta * strongest_; }
+  double z_now() const { return trajectory_.zeta * strongest_; }
 
   // To the next knot, output time or event.
   void go() {
     record();
-    const double h = std::min(life_.time_left(), life_.next_output());
-    const bool to_knot = h == life_.cursor.left();
+    const double h = std::min(trajectory_.time_left(), trajectory_.next_output());
+    const bool to_knot = h == trajectory_.cursor.left();
     write();
     leave_kinks();
     start_at(stepper_.get(), 0, h);
@@ -161,16 +163,16 @@ class Reference {
       if (arrive(tau, before, event)) return;
       if (flag == ARK_ROOT_RETURN) start_at(stepper_.get(), tau, h);
     }
-    life_.cursor.advance(h);
-    life_.check();
-    if (to_knot) life_.next_segment();
+    trajectory_.cursor.advance(h);
+    trajectory_.check();
+    if (to_knot) trajectory_.next_segment();
   }
 
   // Turns the kinks on which the leg starts and beyond which it goes: ARKODE sees no root on which it starts. Where it goes shows after
   // a millionth of the ringing's own time. Three steps by the midpoint rule: from rest, on a floor that begins to move, the first one
   // finds a speed, the second one a displacement, the third one what follows it.
   void leave_kinks() {
-    if (!life_.laws) return;
+    if (!trajectory_.laws) return;
     constexpr int steps = 3;
     const double soon = 1e-6 / rate_, h = soon / steps, *now = N_VGetArrayPointer(y_.get());
     double rates[state_size], middle[state_size], later[state_size];
@@ -181,27 +183,27 @@ class Reference {
       derivatives((step + 0.5) * h, middle, rates);
       for (int i = 0; i < state_size; ++i) later[i] += h * rates[i];
     }
-    for (int j = 0; j < life_.laws->tape.kink_count(); ++j)
-      if (kink(j, 0, now) <= 0 && kink(j, soon, later) < 0) life_.law_state.turn_kink(j);
+    for (int j = 0; j < trajectory_.laws->tape.kink_count(); ++j)
+      if (kink(j, 0, now) <= 0 && kink(j, soon, later) < 0) trajectory_.law_state.turn_kink(j);
   }
 
   // Records what is due now.
   void record() {
     constexpr double now = 1e-9;
-    life_.record(now, [&](double t) {
-      const bool slides = sigma_ * life_.zeta > life_.contact.sliding;
+    trajectory_.record(now, [&](double t) {
+      const bool slides = sigma_ * trajectory_.zeta > trajectory_.contact.sliding;
       double rates[state_size];
       derivatives(0, N_VGetArrayPointer(y_.get()), rates);
       const double held = rates[v] + a(0);
-      return HistoryPoint{life_.cursor.time() + t,
-                          a(t) - life_.push,
-                          life_.displacement(),
-                          life_.v,
+      return HistoryPoint{trajectory_.cursor.time() + t,
+                          a(t) - trajectory_.push,
+                          trajectory_.displacement(),
+                          trajectory_.v,
                           0,
                           0,
                           slides ? Mode::slide : Mode::rest,
-                          held - life_.push,
-                          floor_.g.at(t) - life_.gravity,
+                          held - trajectory_.push,
+                          floor_.g.at(t) - trajectory_.gravity,
                           held,
                           floor_.g.at(t)};
     });
@@ -252,32 +254,33 @@ class Reference {
   // The state at the end of a step. True: an event, the leg is over.
   bool arrive(double tau, double before, int event) {
     const double* y = N_VGetArrayPointer(y_.get());
-    const double earlier = std::abs(life_.zeta);
-    life_.add_path(y[path] - path_);
+    const double earlier = std::abs(trajectory_.zeta);
+    trajectory_.add_path(y[path] - path_);
     path_ = y[path];
-    life_.v = y[v];
-    life_.zeta = y[z] / strongest_;
-    life_.slip = y[u] - law_.yield_displacement_m * y[z];
-    for (int i = 0; i < max_states; ++i) life_.law_state.states[static_cast<std::size_t>(i)] = y[own + i];
-    if (tau - before > life_.instant_s) life_.law_state.left_kinks();
-    const double half = life_.contact.sliding;
-    if (side_ == sigma_ && earlier <= half && std::abs(life_.zeta) > half)
-      life_.begin_slide(life_.cursor.time() + 0.5 * (before + tau));
-    if (!life_.simple()) {
+    trajectory_.v = y[v];
+    trajectory_.zeta = y[z] / strongest_;
+    trajectory_.slip = y[u] - law_.yield_displacement_m * y[z];
+    for (int i = 0; i < max_states; ++i) trajectory_.law_state.states[static_cast<std::size_t>(i)] = y[own + i];
+    if (tau - before > trajectory_.instant_s) trajectory_.law_state.left_kinks();
+    const double half = trajectory_.contact.sliding;
+    if (side_ == sigma_ && earlier <= half && std::abs(trajectory_.zeta) > half)
+      trajectory_.begin_slide(trajectory_.cursor.time() + 0.5 * (before + tau));
+    if (!trajectory_.simple()) {
       double rates[state_size];
       derivatives(tau, y, rates);
-      life_.observe_acceleration(rates[v] + a(tau) - life_.push, std::max(0.0, floor_.g.at(tau)) - life_.gravity);
+      trajectory_.observe_acceleration(rates[v] + a(tau) - trajectory_.push,
+                                       std::max(0.0, floor_.g.at(tau)) - trajectory_.gravity);
     }
     const bool saturates = side_ == sigma_ && !held_ && held_is_right(y[z]);
     if (event == root_count && !saturates) return false;
-    life_.cursor.advance(tau);
+    trajectory_.cursor.advance(tau);
     if (event == turns) {
-      life_.turn();
+      trajectory_.turn();
       sigma_ = 0;
     } else if (event == crosses_zero) {
-      side_ = life_.law_state.side = sigma_;
+      side_ = trajectory_.law_state.side = sigma_;
     } else if (event < root_count) {
-      life_.law_state.turn_kink(event - kinks);
+      trajectory_.law_state.turn_kink(event - kinks);
     } else {
       held_ = true;
     }
@@ -291,11 +294,11 @@ class Reference {
 
   void write() {
     double* y = N_VGetArrayPointer(y_.get());
-    y[u] = life_.displacement();
-    y[v] = life_.v;
+    y[u] = trajectory_.displacement();
+    y[v] = trajectory_.v;
     y[z] = z_now();
     path_ = y[path] = 0;
-    for (int i = 0; i < max_states; ++i) y[own + i] = life_.law_state.states[static_cast<std::size_t>(i)];
+    for (int i = 0; i < max_states; ++i) y[own + i] = trajectory_.law_state.states[static_cast<std::size_t>(i)];
   }
 
   void derivatives(double tau, const double* y, double* rates) const {
@@ -304,10 +307,10 @@ class Reference {
     rates[u] = y[v];
     rates[v] = -a(tau) - hold(tau) * y[z];
     std::fill(rates + own, rates + state_size, 0.0);
-    if (life_.laws)
+    if (trajectory_.laws)
       with_laws(tau, y, [&](double hold, const auto& laws) {
         rates[v] = -a(tau) - hold;
-        for (int i = 0; i < life_.laws->states; ++i) rates[own + i] = laws.state_rate(i);
+        for (int i = 0; i < trajectory_.laws->states; ++i) rates[own + i] = laws.state_rate(i);
       });
     rates[z] = y[v] * (1 - yields) / law_.yield_displacement_m;
     rates[path] = std::abs(y[v] * yields);
@@ -320,20 +323,20 @@ class Reference {
     BoucWenArc<1> arc{};
     arc.v[0] = s * y[v];
     arc.zeta[0] = s * y[z] / strongest_;
-    const BoucWenStart start{life_.cursor.time() + tau, y[u] - law_.yield_displacement_m * y[z],
-                             life_.path() + y[path] - path_, s > 0 ? 1 : -1, false};
+    const BoucWenStart start{trajectory_.cursor.time() + tau, y[u] - law_.yield_displacement_m * y[z],
+                             trajectory_.path() + y[path] - path_, s > 0 ? 1 : -1, false};
     const Series<double, 1> force{hold(tau) * strongest_, 0}, g{floor_.g.at(tau), 0};
-    BoucWenLawState state = life_.law_state;
+    BoucWenLawState state = trajectory_.law_state;
     for (int i = 0; i < max_states; ++i) state.states[static_cast<std::size_t>(i)] = y[own + i];
-    BoucWenLawHold<1> laws(*life_.laws, state, start, life_.contact, arc, force, g);
+    BoucWenLawHold<1> laws(*trajectory_.laws, state, start, trajectory_.contact, arc, force, g);
     use(s * laws(0), laws);
   }
 
   // The argument of kink j, positive on its present side.
   double kink(int j, double tau, const double* y) const {
     double argument = 1;
-    if (life_.laws && j < life_.laws->tape.kink_count() && life_.law_state.watches(j) &&
-        !life_.laws->tape.latched(j, life_.law_state.sides))
+    if (trajectory_.laws && j < trajectory_.laws->tape.kink_count() && trajectory_.law_state.watches(j) &&
+        !trajectory_.laws->tape.latched(j, trajectory_.law_state.sides))
       with_laws(tau, y, [&](double, const auto& laws) { argument = laws.kink_now(j); });
     return argument;
   }
@@ -355,7 +358,7 @@ class Reference {
     return 0;
   }
 
-  BoucWenLife life_;
+  BoucWenTrajectory trajectory_;
   const BoucWen law_;
   double mu_, strongest_, rate_;  // strongest_: largest |z|; rate_: of the elastic ringing [rad/s]
   Floor<double, max_floor_degree> floor_{};

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "dynamics/blow.hpp"
+#include "dynamics/impulse.hpp"
 #include "dynamics/law_values.hpp"
 #include "dynamics/row_of_hops.hpp"
 #include "dynamics/wall.hpp"

@@ -1,4 +1,4 @@
-// What both integrators share: the life of one sample from event to event. They differ only in how they move between
+// What both integrators share: the trajectory of one sample from event to event. They differ only in how they move between
 // events.
 #pragma once
 

@@ -18,21 +18,22 @@ class Group {
   using Integrator = IntegratorOf<Motion>;
 
  public:
-  Group(const Integration& life, const Settings& settings) : laws_(*life.rig.laws), rows_(std::make_unique<LawRows>()) {
+  Group(const Integration& trajectory, const Settings& settings)
+      : laws_(*trajectory.rig.laws), rows_(std::make_unique<LawRows>()) {
     rows_->laws = &laws_;
-    rows_->turns = life.state.pivot != 0;
-    rows_->slips = life.state.sigma != 0;
-    rows_->can_slip = life.rig.can_slip;
-    rows_->can_rock = life.rig.can_rock;
+    rows_->turns = trajectory.state.pivot != 0;
+    rows_->slips = trajectory.state.sigma != 0;
+    rows_->can_slip = trajectory.rig.can_slip;
+    rows_->can_rock = trajectory.rig.can_rock;
     rows_->slip_by_side = settings.slip_by_side;
-    rows_->impact = life.rig.impact.law;
+    rows_->impact = trajectory.rig.impact.law;
     rows_->tolerance = settings.tolerance;
   }
 
-  bool takes(const Integration& life) const {
-    return rows_->turns == (life.state.pivot != 0) && rows_->slips == (life.state.sigma != 0) &&
-           rows_->can_slip == life.rig.can_slip && rows_->can_rock == life.rig.can_rock &&
-           rows_->impact == life.rig.impact.law && laws_.same_shape(*life.rig.laws);
+  bool takes(const Integration& trajectory) const {
+    return rows_->turns == (trajectory.state.pivot != 0) && rows_->slips == (trajectory.state.sigma != 0) &&
+           rows_->can_slip == trajectory.rig.can_slip && rows_->can_rock == trajectory.rig.can_rock &&
+           rows_->impact == trajectory.rig.impact.law && laws_.same_shape(*trajectory.rig.laws);
   }
   int count() const { return rows_->lanes; }
   int lane(int slot) const { return lane_[slot]; }
@@ -41,20 +42,20 @@ class Group {
   void enter(int lane, Integrator& integrator) {
     const int i = rows_->lanes++;
     lane_[i] = lane;
-    write_tape(i, *integrator.life().rig.laws);
+    write_tape(i, *integrator.trajectory().rig.laws);
     write(i, integrator);
   }
 
   // The sample as it is now; the numbers of its tape are there.
   void write(int i, Integrator& integrator) {
-    const Integration& life = integrator.life();
-    const Rig& rig = life.rig;
-    const State& state = life.state;
+    const Integration& trajectory = integrator.trajectory();
+    const Rig& rig = trajectory.rig;
+    const State& state = trajectory.state;
     const int pivot = state.pivot != 0 ? state.pivot : 1;
-    const Standing<double> at = standing_of(rig, state, life.cursor.time());
+    const Standing<double> at = standing_of(rig, state, trajectory.cursor.time());
     const Sizes& size = integrator.sizes();
-    const Response& peaks = life.peaks.response();
-    const FloorCursor::Place place = life.cursor.place();
+    const Response& peaks = trajectory.peaks.response();
+    const FloorCursor::Place place = trajectory.cursor.place();
     const auto set = [&](Row row, double x) { rows_->row(row)[i] = x; };
     set(Row::corner, rig.offset(pivot));
     set(Row::height, rig.h);
@@ -95,14 +96,14 @@ class Group {
     set(Row::over_length, size.over_length);
     set(Row::over_speed, size.over_speed);
     set(Row::longest_step_s, size.longest_step_s);
-    set(Row::vertical_scale, place.vertical ? life.shaking.vertical_scale : 0.0);
-    set(Row::stretch, life.shaking.stretch);
+    set(Row::vertical_scale, place.vertical ? trajectory.shaking.vertical_scale : 0.0);
+    set(Row::stretch, trajectory.shaking.stretch);
     set(Row::push, rig.push);
     set(Row::gravity, rig.g);
     set(Row::start, place.start);
     set(Row::offset, place.offset);
-    set(Row::end, life.shaking.duration_s() + life.settings.free_vibration_s);
-    set(Row::over, life.cursor.motion_over());
+    set(Row::end, trajectory.shaking.duration_s() + trajectory.settings.free_vibration_s);
+    set(Row::over, trajectory.cursor.motion_over());
     set(Row::peak_slip, peaks.peak_slip_m);
     set(Row::peak_slip_right, peaks.peak_slip_right_m);
     set(Row::peak_slip_left, peaks.peak_slip_left_m);
@@ -119,24 +120,24 @@ class Group {
       rows_->turns_yet[kink][i] = !laws.tape.latched(kink, state.sides);
     }
     rows_->place[i] = place;
-    rows_->coefficients[i] = life.shaking.motion->degree + 1;
+    rows_->coefficients[i] = trajectory.shaking.motion->degree + 1;
     for (int k = 0; k <= Motion::degree; ++k) {
-      rows_->unit[k][i] = life.cursor.unit(k);
+      rows_->unit[k][i] = trajectory.cursor.unit(k);
       rows_->horizontal[k][i] = 0;
     }
     rows_->vertical[0][i] = rows_->vertical[1][i] = 0;
     if (place.left > 0) rows_->read_segment(i);
     rows_->segments[i] = static_cast<int>(place.left);
-    rows_->steps[i] = life.steps();
+    rows_->steps[i] = trajectory.steps();
     rows_->blows[i] = rows_->told[i] = rows_->struck[i] = 0;
-    rows_->room[i] = life.events_left();
-    write_history(i, integrator.life().recorder, state.mode);
+    rows_->room[i] = trajectory.events_left();
+    write_history(i, integrator.trajectory().recorder, state.mode);
   }
 
   // Back to the text for single samples.
   void read(int i, Integrator& integrator) {
-    Integration& life = integrator.life();
-    State& state = life.state;
+    Integration& trajectory = integrator.trajectory();
+    State& state = trajectory.state;
     const auto get = [&](Row row) { return rows_->row(row)[i]; };
     state.pivot = static_cast<int>(get(Row::pivot));
     state.theta = get(Row::theta);
@@ -147,10 +148,11 @@ class Group {
     state.deflection = get(Row::deflection);
     state.still_since = get(Row::still_since);
     for (int k = 0; k < laws_.states; ++k) state.states[static_cast<std::size_t>(k)] = state_row(k)[i];
-    life.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset), rows_->steps[i]);
-    life.rocked_on(rows_->blows[i] - rows_->struck[i], rows_->told[i]);
-    life.recorder.times().went_to(rows_->points[i]);
-    Response& peaks = life.peaks.response();
+    trajectory.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset),
+                       rows_->steps[i]);
+    trajectory.rocked_on(rows_->blows[i] - rows_->struck[i], rows_->told[i]);
+    trajectory.recorder.times().went_to(rows_->points[i]);
+    Response& peaks = trajectory.peaks.response();
     peaks.peak_slip_m = get(Row::peak_slip);
     peaks.peak_slip_right_m = get(Row::peak_slip_right);
     peaks.peak_slip_left_m = get(Row::peak_slip_left);
@@ -213,12 +215,13 @@ class Group {
 };
 
 // A lane may go along with others: nothing is special about this instant.
-bool can_march(const Integration& life) {
-  const State& s = life.state;
+bool can_march(const Integration& trajectory) {
+  const State& s = trajectory.state;
   const bool contact = s.mode == Mode::slide || s.mode == Mode::rock || s.mode == Mode::slide_rock ||
-                       (s.mode == Mode::rest && !life.waits());
-  return contact && !(life.cursor.motion_over() && s.mode == Mode::rest) && s.wall == 0 && !s.released &&
-         s.doubt == 1 && !s.turned && !life.peaks.waits() && life.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
+                       (s.mode == Mode::rest && !trajectory.waits());
+  return contact && !(trajectory.cursor.motion_over() && s.mode == Mode::rest) && s.wall == 0 && !s.released &&
+         s.doubt == 1 && !s.turned && !trajectory.peaks.waits() &&
+         trajectory.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
 }
 
 template <class Motion>
@@ -268,9 +271,9 @@ class Pool {
       const int lane = group.lane(slot);
       Integrator& integrator = *lanes_[lane].integrator;
       group.read(slot, integrator);
-      if (stopped.undecided & bit) integrator.life().struck();
+      if (stopped.undecided & bit) integrator.trajectory().struck();
       if (stopped.before_step & bit) integrator.step_along(series_of(slot, integrator));
-      if (walks_on(integrator) && group.takes(integrator.life())) {
+      if (walks_on(integrator) && group.takes(integrator.trajectory())) {
         group.write(slot, integrator);
         continue;
       }
@@ -281,9 +284,9 @@ class Pool {
 
   const Arc& series_of(int slot, Integrator& integrator) {
     Arc& arc = series_[static_cast<std::size_t>(slot)];
-    const Laws& laws = *integrator.life().rig.laws;
+    const Laws& laws = *integrator.trajectory().rig.laws;
     for (int kink = 0; kink < laws.tape.kink_count(); ++kink)
-      if (!laws.tape.turns(kink, integrator.life().state.sides, arc.kink[kink][0]))
+      if (!laws.tape.turns(kink, integrator.trajectory().state.sides, arc.kink[kink][0]))
         arc.kink[kink] = Series<double, Motion::order>::zero();
     return arc;
   }
@@ -291,7 +294,7 @@ class Pool {
   // Step by step, until a group can take it. False: it has ended.
   static bool walks_on(Integrator& integrator) {
     while (integrator.goes_on()) {
-      if (can_march(integrator.life())) return true;
+      if (can_march(integrator.trajectory())) return true;
       integrator.step();
     }
     return false;
@@ -300,19 +303,19 @@ class Pool {
   void place(int lane) {
     Integrator& integrator = *lanes_[lane].integrator;
     if (walks_on(integrator))
-      group_of(integrator.life()).enter(lane, integrator);
+      group_of(integrator.trajectory()).enter(lane, integrator);
     else
       finish(lane);
   }
 
-  Group<Motion>& group_of(const Integration& life) {
+  Group<Motion>& group_of(const Integration& trajectory) {
     for (Group<Motion>& group : groups_)
-      if (group.takes(life)) return group;
-    return groups_.emplace_back(life, settings_);
+      if (group.takes(trajectory)) return group;
+    return groups_.emplace_back(trajectory, settings_);
   }
 
   void finish(int lane) {
-    responses_[lanes_[lane].sample] = lanes_[lane].integrator->life().result();
+    responses_[lanes_[lane].sample] = lanes_[lane].integrator->trajectory().result();
     refill(lane);
   }
 

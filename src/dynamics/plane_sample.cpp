@@ -340,7 +340,7 @@ void PlaneSample::observe_place(const SlipSeries<double>& slip, double h) {
   state_.slip = std::fmax(state_.slip, std::sqrt(max_of(squared, h, state_.slip * state_.slip)));
 }
 
-// Life.
+// The trajectory.
 
 void PlaneSample::change(Mode to, bool impact) {
   history_.event({time(), mode_, to, 0, impact});

@@ -40,10 +40,10 @@ struct Follower {
 
   // One pass; `before`: theta of the pass before, for the term v_0 (k + 1) theta_(k+1). False: its direction does not follow.
   bool pass(const DrivenSeries& before, double zero) {
-    const double bend = m - 1;
+    const double anisotropy = m - 1;
     for (int turn = 0; v[0] > 0 && turn < 20; ++turn) {
-      const double missed = A.x * s[0] - A.y * c[0] - F * bend * s[0] * c[0] - v[0] * before[1];
-      const double slope = A.x * c[0] + A.y * s[0] - F * bend * (c[0] - s[0]) * (c[0] + s[0]);
+      const double missed = A.x * s[0] - A.y * c[0] - F * anisotropy * s[0] * c[0] - v[0] * before[1];
+      const double slope = A.x * c[0] + A.y * s[0] - F * anisotropy * (c[0] - s[0]) * (c[0] + s[0]);
       const double step = missed / slope;
       if (!(std::abs(step) < 0.5)) return false;
       theta[0] -= step;
@@ -55,8 +55,8 @@ struct Follower {
     sc[0] = s[0] * c[0];
     ss[0] = s[0] * s[0];
     const double turned = (c[0] - s[0]) * (c[0] + s[0]);
-    settles = -(A.x * c[0] + A.y * s[0] - F * bend * turned);
-    v[1] = -(A.x * c[0] + A.y * s[0] + F * (1 + bend * ss[0]));
+    settles = -(A.x * c[0] + A.y * s[0] - F * anisotropy * turned);
+    v[1] = -(A.x * c[0] + A.y * s[0] + F * (1 + anisotropy * ss[0]));
     if (v[0] == 0 && std::abs(v[1]) <= zero) v[1] = 0;
     if (!(settles > 0) || !(angles * v[1] > -0.5 * settles)) return false;
     for (int k = 1; k <= angles; ++k) {
@@ -66,9 +66,9 @@ struct Follower {
       s[k] = sine * over[k];
       c[k] = cosine * over[k];
       double right = times_linear(A.x, B.x, s, k) - times_linear(A.y, B.y, c, k);
-      if (bend != 0) {
+      if (anisotropy != 0) {
         sc[k] = product(s, c, k);
-        right -= bend * times_linear(F, dF, sc, k);
+        right -= anisotropy * times_linear(F, dF, sc, k);
       }
       right -= v[0] * (k + 1) * (k < angles ? before[k + 1] : 0.0);
       for (int j = 2; j <= k; ++j) right -= v[j] * (k - j + 1) * theta[k - j + 1];
@@ -76,10 +76,10 @@ struct Follower {
       s[k] += theta[k] * c[0];
       c[k] -= theta[k] * s[0];
       double rubs = k == 1 ? dF : 0.0;
-      if (bend != 0) {
+      if (anisotropy != 0) {
         sc[k] += theta[k] * turned;
         ss[k] = product(s, s, k);
-        rubs += bend * times_linear(F, dF, ss, k);
+        rubs += anisotropy * times_linear(F, dF, ss, k);
       }
       v[k + 1] = -(times_linear(A.x, B.x, c, k) + times_linear(A.y, B.y, s, k) + rubs) * over[k + 1];
     }

@@ -97,10 +97,10 @@ struct PlaneStep {
     const Mask slow = (v <= settles_in * drive * limit) & (at.offset >= at.asks);
     if (!Numbers::any(slow)) return slow;
     const Real F = at.grip.mu * floor.g, r = elliptic ? at.grip.ratio : Real(1.0), zero(0.0), v2 = v * v;
-    const Real stiff = r * r - Real(1.0), bend = F * stiff, qx = at.w.x, qy = r * at.w.y, Ay = r * floor.a.y;
-    const Real ahead = (floor.a.x * qx + Ay * qy) * v, slows = ahead + F * v2 + bend * qy * qy;  // times v^2
-    const Real settles = bend * (qx * qx - qy * qy) - ahead;
-    const Real turns = (floor.a.x * qy - Ay * qx) * v - bend * qx * qy;
+    const Real stiff = r * r - Real(1.0), anisotropy = F * stiff, qx = at.w.x, qy = r * at.w.y, Ay = r * floor.a.y;
+    const Real ahead = (floor.a.x * qx + Ay * qy) * v, slows = ahead + F * v2 + anisotropy * qy * qy;  // times v^2
+    const Real settles = anisotropy * (qx * qx - qy * qy) - ahead;
+    const Real turns = (floor.a.x * qy - Ay * qx) * v - anisotropy * qx * qy;
     const Real changes = (floor.da.x * qy - r * floor.da.y * qx) * v - at.grip.mu * floor.dg * stiff * qx * qy;
     const Real lag = v2 * v * changes / (settles - slows), rate = length(floor.da) + at.grip.mu * abs(floor.dg);
     const Real lags = v * rate / (drive * drive);
@@ -169,15 +169,15 @@ struct PlaneStep {
     Mask sought = rate * s <= longest;
     found = sought & (zero > zero);
     for (int turn = 0; turn < 8 && Numbers::any(sought); ++turn) {
-      Real time = slip.t[N], speed = zero, bend = zero;
+      Real time = slip.t[N], speed = zero, half_curvature = zero;
 #pragma GCC unroll 16
       for (int k = N - 1; k >= 0; --k) {
-        bend = bend * s + speed;
+        half_curvature = half_curvature * s + speed;
         speed = speed * s + time;
         time = time * s + slip.t[k];
       }
       const Real missed = time - limit;
-      s = Numbers::choose(sought, s - missed * speed / (speed * speed - missed * bend), s);
+      s = Numbers::choose(sought, s - missed * speed / (speed * speed - missed * half_curvature), s);
       const Mask there = abs(missed) <= close;  // and Halley's rule leaves the third power of what is missing
       found = found | (sought & there);
       sought = sought & !there & (speed > zero) & (s > zero) & (rate * s <= longest);
@@ -190,8 +190,9 @@ struct PlaneStep {
     const Real before2 = at.acceleration * at.acceleration;
     Real most = before2;
     if constexpr (elliptic) {
-      const Mask loud = goes & (size_of_rest<0>(slip.felt2, h) > before2);
-      if (Numbers::any(loud)) most = Numbers::choose(loud, Numbers::most(loud, slip.felt2, h, before2), before2);
+      const Mask exceeds = goes & (size_of_rest<0>(slip.felt2, h) > before2);
+      if (Numbers::any(exceeds))
+        most = Numbers::choose(exceeds, Numbers::most(exceeds, slip.felt2, h, before2), before2);
     } else {
       most = larger(most, felt2(floor));
       if constexpr (shaken) most = larger(most, felt2(floor.later(tau)));

@@ -14,7 +14,7 @@ constexpr int N = max_floor_degree + 2;  // of the displacement
 using Polynomial = Series<double, N>;
 
 // What a segment of length h adds, from its coefficients c_k in the motion's own time:
-//     V = sum_k speed[k] c_k,   U = sum_k place[k] c_k,   and sum_k bend[k] |c_k| >= h^2/8 |a'|:
+//     V = sum_k speed[k] c_k,   U = sum_k place[k] c_k,   and sum_k off_chord[k] |c_k| >= h^2/8 |a'|:
 // by so much the speed may leave its chord between the ends.
 class SegmentIntegrals {
  public:
@@ -22,7 +22,7 @@ class SegmentIntegrals {
       : degree_(shaking.motion->degree), scale_(shaking.scale), stretch_(shaking.stretch) {}
 
   struct Gain {
-    double V, U, bend;  // [m/s], [m], [m/s]
+    double V, U, off_chord;  // [m/s], [m], [m/s]
   };
   Gain over(const double* c, double h) {
     if (!(std::abs(h - h_) <= 1e-14 * h)) set_length(h);
@@ -30,7 +30,7 @@ class SegmentIntegrals {
     for (std::size_t k = 0; k <= static_cast<std::size_t>(degree_); ++k) {
       gain.V += speed_[k] * c[k];
       gain.U += place_[k] * c[k];
-      gain.bend += bend_[k] * std::abs(c[k]);
+      gain.off_chord += off_chord_[k] * std::abs(c[k]);
     }
     return gain;
   }
@@ -43,13 +43,13 @@ class SegmentIntegrals {
       const auto i = static_cast<std::size_t>(k);
       speed_[i] = power / (k + 1);
       place_[i] = speed_[i] * (stretch_ * h) / (k + 2);
-      bend_[i] = 0.125 * k * std::abs(power);
+      off_chord_[i] = 0.125 * k * std::abs(power);
     }
   }
 
   int degree_;
   double scale_, stretch_, h_ = 0;
-  std::array<double, max_floor_degree + 1> speed_{}, place_{}, bend_{};
+  std::array<double, max_floor_degree + 1> speed_{}, place_{}, off_chord_{};
 };
 
 class PulseSlide {
@@ -169,7 +169,7 @@ class PulseSlide {
       const double h = at.knot_at_end[passed] - at.knot_at_end[passed - 1], t = h * shaking_.stretch;
       const SegmentIntegrals::Gain gain = segments_.over(at.horizontal + passed * stride, h);
       const double w = w_ - gain.V - braked * t, u = u_ + w_ * t - gain.U - 0.5 * braked * t * t;
-      if (!(sigma_ * w_ > gain.bend && sigma_ * w > gain.bend)) break;
+      if (!(sigma_ * w_ > gain.off_chord && sigma_ * w > gain.off_chord)) break;
       w_ = w;
       u_ = u;
     }

@@ -27,7 +27,7 @@ constexpr int root_count = witness_slots + 3;
 class ReferenceIntegrator {
  public:
   ReferenceIntegrator(const Setup& setup, const Settings& settings, History* history)
-      : life_(setup, settings, history),
+      : trajectory_(setup, settings, history),
         longest_step_(0.006 / setup.specimen.block.p_radps()),
         round_off_(1e-12 * setup.specimen.block.size_m()) {
     SUNContext context = nullptr;
@@ -46,26 +46,26 @@ class ReferenceIntegrator {
   }
 
   Response run() {
-    for (life_.stop_when_done(); !life_.finished(); life_.stop_when_done()) {
-      if (life_.waits())
-        life_.wait();
+    for (trajectory_.stop_when_done(); !trajectory_.finished(); trajectory_.stop_when_done()) {
+      if (trajectory_.waits())
+        trajectory_.wait();
       else if (!resolve_if_violated())
         integrate_leg();
     }
-    return life_.result();
+    return trajectory_.result();
   }
 
  private:
   // A jump of the floor's acceleration may end the mode at once.
   bool resolve_if_violated() {
     FirstEvent now(0);
-    const auto floor = life_.cursor.local<judge_order>();
+    const auto floor = trajectory_.cursor.local<judge_order>();
     bool forces = true;
     with_arc(floor, [&](const auto& arc) {
       forces = has_forces(arc);
-      for_each_witness(life_.rig, life_.state, arc, now);
+      for_each_witness(trajectory_.rig, trajectory_.state, arc, now);
     });
-    if (now.found().any || !forces) life_.resolve(forces ? now.found().witness : Witness::regular);
+    if (now.found().any || !forces) trajectory_.resolve(forces ? now.found().witness : Witness::regular);
     return now.found().any || !forces;
   }
 
@@ -79,22 +79,22 @@ class ReferenceIntegrator {
 
   // To the next knot, output time or event.
   void integrate_leg() {
-    floor_ = life_.cursor.local<judge_order>();
-    if (passed_over_s_ == 0 && life_.state.pivot != 0) look_out_for_the_floor();
+    floor_ = trajectory_.cursor.local<judge_order>();
+    if (passed_over_s_ == 0 && trajectory_.state.pivot != 0) look_out_for_the_floor();
     const double h = leg_length();
-    const bool to_knot = h == life_.cursor.left();
+    const bool to_knot = h == trajectory_.cursor.left();
     if (h > 0) {
       record(h);
       if (h > instant_ && !go(h)) return;
     }
-    life_.cursor.advance(h);
-    if (to_knot) life_.next_segment();
+    trajectory_.cursor.advance(h);
+    if (to_knot) trajectory_.next_segment();
   }
 
   // A hop that a step would pass over, down and up again, is gone through in short steps, until long after it should have ended.
   void look_out_for_the_floor() {
     with_arc(floor_at(0), [&](const auto& arc) {
-      const double fall = 2 * fall_time(life_.state.pivot, arc.theta);
+      const double fall = 2 * fall_time(trajectory_.state.pivot, arc.theta);
       if (fall > shortest_ && fall < longest_step_) passed_over_s_ = fall;
     });
   }
@@ -105,7 +105,7 @@ class ReferenceIntegrator {
     void* ark = stepper_.get();
     const double step = std::min(h, passed_over_s_ > 0 ? passed_over_s_ / 8 : longest_step_);
     passed_over_s_ = 0;
-    off_wall_ = touches_wall(rig(), life_.state) ? 0.5 * touching(rig()) : 0;
+    off_wall_ = touches_wall(rig(), trajectory_.state) ? 0.5 * touching(rig()) : 0;
     start_at(ark, 0, h, step);
     watch_ = {true, true, true};
     double g[root_count];
@@ -114,16 +114,16 @@ class ReferenceIntegrator {
     observe(0);
     double enough = -1e300;  // a slip speed, above which its extremes are not watched
     for (double tau = 0; tau < h;) {
-      const double before = tau, path = life_.peaks.response().slid_path_m;
-      const State from = life_.state;
+      const double before = tau, path = trajectory_.peaks.response().slid_path_m;
+      const State from = trajectory_.state;
       const int flag = ERKStepEvolve(ark, h, y_.get(), &tau, ARK_ONE_STEP);
       // The laws lead no further than this, or jump.
       if (flag == ARK_RHSFUNC_FAIL || flag == ARK_RTFUNC_FAIL || flag == ARK_ERR_FAILURE) {
         end_before(from, before, path, std::min(step, h - before));
         if (!rig().laws)
-          life_.stop(Outcome::not_finite);
+          trajectory_.stop(Outcome::not_finite);
         else if (passed_over_s_ <= shortest_)
-          life_.resolve(Witness::regular);
+          trajectory_.resolve(Witness::regular);
         return false;
       }
       check(flag, "ERKStepEvolve");
@@ -150,21 +150,21 @@ class ReferenceIntegrator {
         if (slot == witness_slots && tau - before > shortest_) {
           end_before(from, before, path, tau - before);  // it was passed over
         } else {
-          life_.cursor.advance(tau);
-          life_.resolve(*met);
+          trajectory_.cursor.advance(tau);
+          trajectory_.resolve(*met);
         }
         return false;
       }
       // Where a law makes the slip steady at once, errors of the steps turn its speed again and again. After an extreme that has kept
       // half of it none is watched, as long as a step starts and ends above a half and loses less in its time: a cubic then has no zero.
-      const double speed = life_.state.sigma * slip_speed(rig(), life_.state);
+      const double speed = trajectory_.state.sigma * slip_speed(rig(), trajectory_.state);
       if (found[stationary_w] && std::count(found, found + root_count, 0) == root_count - 1 &&
           speed > 0.5 * from.sigma * slip_speed(rig(), from)) {
         enough = 0.5 * speed;
         watch_[2] = false;
         restart(ark, tau, h);
       } else if (flag == ARK_ROOT_RETURN || speed < enough + std::abs(slip_rate_) * (tau - before)) {
-        life_.cursor.advance(tau);  // a stationary point: the next leg starts there
+        trajectory_.cursor.advance(tau);  // a stationary point: the next leg starts there
         return false;
       }
     }
@@ -173,14 +173,14 @@ class ReferenceIntegrator {
 
   // The leg ends where a step began that passed over an event.
   void end_before(const State& from, double tau, double path, double step) {
-    life_.state = from;
-    life_.peaks.response().slid_path_m = path;
-    life_.cursor.advance(tau);
+    trajectory_.state = from;
+    trajectory_.peaks.response().slid_path_m = path;
+    trajectory_.cursor.advance(tau);
     passed_over_s_ = step;
   }
 
   void start_at(void* ark, double tau, double end, double step) {
-    write(life_.state);
+    write(trajectory_.state);
     check(ERKStepSetMaxStep(ark, step), "ERKStepSetMaxStep");
     check(ERKStepSetInitStep(ark, std::min(end - tau, step)), "ERKStepSetInitStep");
     restart(ark, tau, end);
@@ -193,18 +193,18 @@ class ReferenceIntegrator {
 
   // The state at the end of a step.
   void arrive(const State& from, double tau) {
-    life_.state = read(y_.get());
-    life_.left_instant(tau);
-    if (life_.rig.laws)
-      life_.peaks.response().slid_path_m += life_.state.path - from.path;
+    trajectory_.state = read(y_.get());
+    trajectory_.left_instant(tau);
+    if (trajectory_.rig.laws)
+      trajectory_.peaks.response().slid_path_m += trajectory_.state.path - from.path;
     else if (from.sigma != 0)
-      life_.peaks.response().slid_path_m += std::abs(life_.state.xi - from.xi);
+      trajectory_.peaks.response().slid_path_m += std::abs(trajectory_.state.xi - from.xi);
     observe(tau);
   }
 
   // Leaves in y the state at tau, integrated anew from the start of the step. False: the laws do not lead so far.
   bool integrate_again(const State& from, double before, double tau) {
-    life_.state = from;
+    trajectory_.state = from;
     write(from);
     if (!(tau > before + instant_)) return true;
     start_at(locator_.get(), before, tau, longest_step_);
@@ -238,9 +238,10 @@ class ReferenceIntegrator {
 
   // A condition that the end of the slip meets comes after it.
   bool slip_ends_now() const {
-    const double speed = life_.state.sigma * slip_speed(rig(), life_.state), loss = -life_.state.sigma * slip_rate_;
+    const double speed = trajectory_.state.sigma * slip_speed(rig(), trajectory_.state),
+                 loss = -trajectory_.state.sigma * slip_rate_;
     constexpr double located = 4;  // instants
-    return life_.state.sigma != 0 && speed <= loss * located * rig().instant_s;
+    return trajectory_.state.sigma != 0 && speed <= loss * located * rig().instant_s;
   }
 
   int event_at(int slot) const { return let_go_ && is_kink(slots_[slot]) ? slot_of(Witness::pressed) : slot; }
@@ -255,40 +256,41 @@ class ReferenceIntegrator {
   }
 
   double leg_length() const {
-    double h = std::min(life_.left(), passed_over_s_ > 0 ? passed_over_s_ : 300 * longest_step_);
+    double h = std::min(trajectory_.left(), passed_over_s_ > 0 ? passed_over_s_ : 300 * longest_step_);
     if (output_step_ > 0) {
-      const double next = (std::floor(life_.cursor.time() / output_step_ + 1e-6) + 1) * output_step_;
-      h = std::min(h, next - life_.cursor.time());
+      const double next = (std::floor(trajectory_.cursor.time() / output_step_ + 1e-6) + 1) * output_step_;
+      h = std::min(h, next - trajectory_.cursor.time());
     }
     return h;
   }
 
   void record(double h) {
-    const double start = life_.cursor.time();
-    with_arc(floor_, [&](const auto& arc) { life_.recorder.record(life_.state, arc, floor_, start, h); });
+    const double start = trajectory_.cursor.time();
+    with_arc(floor_, [&](const auto& arc) { trajectory_.recorder.record(trajectory_.state, arc, floor_, start, h); });
   }
 
   // Calls use(arc) with the series of the state's mode, of its order in the floor given.
   template <int N, class Use>
   void with_arc(const Floor<double, N>& floor, Use&& use, double tau = 0) const {
-    const double time = life_.cursor.time() + tau;
-    if (life_.state.mode == Mode::flight)
-      with_flight_arc<N>(life_.rig, life_.state, time, floor, use);
+    const double time = trajectory_.cursor.time() + tau;
+    if (trajectory_.state.mode == Mode::flight)
+      with_flight_arc<N>(trajectory_.rig, trajectory_.state, time, floor, use);
     else
-      with_contact_arc<N>(life_.rig, life_.state, time, floor, use);
+      with_contact_arc<N>(trajectory_.rig, trajectory_.state, time, floor, use);
   }
 
   // Extremes at the present point; root finding stops the integration at the stationary ones.
   void observe(double tau) {
     const Floor<double, 2> floor = floor_at(tau);
-    const double time = life_.cursor.time() + tau;
-    if (life_.state.mode == Mode::flight)
-      with_flight_arc<2>(life_.rig, life_.state, time, floor,
-                         [&](const auto& arc) { life_.peaks.observe(life_.rig, life_.state, arc, 0); });
+    const double time = trajectory_.cursor.time() + tau;
+    if (trajectory_.state.mode == Mode::flight)
+      with_flight_arc<2>(trajectory_.rig, trajectory_.state, time, floor, [&](const auto& arc) {
+        trajectory_.peaks.observe(trajectory_.rig, trajectory_.state, arc, 0);
+      });
     else
-      with_contact_arc<2>(life_.rig, life_.state, time, floor, [&](const auto& arc) {
-        if (life_.state.sigma != 0) life_.state.foot = slip_speed(arc)[0];
-        life_.peaks.observe(life_.rig, life_.state, arc, 0);
+      with_contact_arc<2>(trajectory_.rig, trajectory_.state, time, floor, [&](const auto& arc) {
+        if (trajectory_.state.sigma != 0) trajectory_.state.foot = slip_speed(arc)[0];
+        trajectory_.peaks.observe(trajectory_.rig, trajectory_.state, arc, 0);
       });
   }
 
@@ -298,7 +300,7 @@ class ReferenceIntegrator {
             {floor_.g.at(tau), dynamics::derivative(floor_.g).at(tau), 0}};
   }
 
-  State read(N_Vector y) const { return state_of(N_VGetArrayPointer(y), life_.state); }
+  State read(N_Vector y) const { return state_of(N_VGetArrayPointer(y), trajectory_.state); }
   void write(const State& s) { numbers_of(s, N_VGetArrayPointer(y_.get())); }
 
   static int derivative(double tau, N_Vector y, N_Vector rate, void* self) {
@@ -306,7 +308,7 @@ class ReferenceIntegrator {
     const State s = me.read(y);
     double* d = N_VGetArrayPointer(rate);
     const auto floor = me.floor_at(tau);
-    const double time = me.life_.cursor.time() + tau;
+    const double time = me.trajectory_.cursor.time() + tau;
     if (s.mode == Mode::flight)
       with_flight_arc<2>(me.rig(), s, time, floor, [&](const auto& f) {
         const double rates[plain_size] = {f.theta[1], f.omega[1], f.x[1], f.vx[1], f.y[1], f.vy[1]};
@@ -336,7 +338,7 @@ class ReferenceIntegrator {
       if (witness == Witness::pressed) me.let_go_ = series[0] < me.rig().force_zero;
       g[slot++] = series[0] + (is_clearance(witness) ? me.off_wall_ : over_floor ? me.off_floor_ : 0);
     };
-    const double time = me.life_.cursor.time() + tau;
+    const double time = me.trajectory_.cursor.time() + tau;
     if (s.mode == Mode::flight) {
       with_flight_arc<2>(me.rig(), s, time, floor, [&](const auto& f) { for_each_witness(me.rig(), s, f, fill); });
       const double d = 0.5 * (me.rig().right - me.rig().left);
@@ -360,10 +362,10 @@ class ReferenceIntegrator {
     return std::none_of(g, g + root_count, [](double x) { return std::isnan(x); }) ? 0 : -1;
   }
 
-  const Rig& rig() const { return life_.rig; }
+  const Rig& rig() const { return trajectory_.rig; }
   int states() const { return rig().laws ? rig().laws->states : 0; }
 
-  Integration life_;
+  Integration trajectory_;
   double longest_step_;
   double round_off_;                        // of lengths [m]
   double off_floor_ = 0.1 * round_off_;     // where a corner that takes off starts, as `off_wall_`

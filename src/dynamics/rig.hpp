@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "base/units.hpp"
-#include "dynamics/blow.hpp"
 #include "dynamics/contact.hpp"
+#include "dynamics/impulse.hpp"
 #include "dynamics/kinks.hpp"
 #include "dynamics/laws.hpp"
 #include "dynamics/point.hpp"

@@ -110,10 +110,10 @@ template <class Real, int N>
 [[gnu::always_inline]] inline auto surely_within_by_ends(const Series<Real, N>& y, const Real& last, const Real& h,
                                                          const Real& limit) {
   using std::abs;
-  Series<Real, N> bend;
+  Series<Real, N> off_chord;
 #pragma GCC unroll 16
-  for (int k = 0; k <= N; ++k) bend[k] = Real(0.125 * k * (k - 1)) * y[k];
-  const Real first_end = abs(y[0]), last_end = abs(last), beyond = size_of_rest<2>(bend, h);
+  for (int k = 0; k <= N; ++k) off_chord[k] = Real(0.125 * k * (k - 1)) * y[k];
+  const Real first_end = abs(y[0]), last_end = abs(last), beyond = size_of_rest<2>(off_chord, h);
   return (first_end + beyond < Real(1 - 1e-12) * limit) & (last_end + beyond < Real(1 - 1e-12) * limit);
 }
 
@@ -132,10 +132,10 @@ template <class Real, int N>
 [[gnu::always_inline]] inline auto surely_monotonic_by_ends(const Series<Real, N>& y, const Real& slope_at_end,
                                                             const Real& h) {
   using std::abs;
-  Series<Real, N - 1> bend;
+  Series<Real, N - 1> off_chord;
 #pragma GCC unroll 16
-  for (int k = 0; k < N; ++k) bend[k] = Real(0.125 * k * (k - 1) * (k + 1)) * y[k + 1];
-  const Real beyond = size_of_rest<2>(bend, h);
+  for (int k = 0; k < N; ++k) off_chord[k] = Real(0.125 * k * (k - 1) * (k + 1)) * y[k + 1];
+  const Real beyond = size_of_rest<2>(off_chord, h);
   return (y[1] * slope_at_end > Real(0.0)) & (abs(y[1]) > beyond) & (abs(slope_at_end) > beyond);
 }
 

@@ -10,23 +10,23 @@ namespace freestand::dynamics {
 
 template <int N, int FlatN>
 void TaylorIntegrator<N, FlatN>::step() {
-  if (life_.waits())
-    life_.wait();
-  else if (life_.state.mode == Mode::flight)
-    fly_on(life_.cursor.template local<N>());
-  else if (life_.state.pivot == 0 && flat_exactly_)
-    slide_exactly(life_.cursor.template local<FlatN>());
+  if (trajectory_.waits())
+    trajectory_.wait();
+  else if (trajectory_.state.mode == Mode::flight)
+    fly_on(trajectory_.cursor.template local<N>());
+  else if (trajectory_.state.pivot == 0 && flat_exactly_)
+    slide_exactly(trajectory_.cursor.template local<FlatN>());
   else
-    move_on(life_.cursor.template local<N>());
+    move_on(trajectory_.cursor.template local<N>());
 }
 
 template <int N, int FlatN>
 void TaylorIntegrator<N, FlatN>::step_along(const LawArc<N>& arc) {
-  const Floor<double, N> floor = life_.cursor.template local<N>();
+  const Floor<double, N> floor = trajectory_.cursor.template local<N>();
   if (has_forces(arc))
     step_along(arc, floor, length_of_step(arc));
   else
-    life_.resolve(Witness::regular);
+    trajectory_.resolve(Witness::regular);
 }
 
 template class TaylorIntegrator<OnRecords::order, OnRecords::degree + 2>;

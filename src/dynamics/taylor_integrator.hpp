@@ -50,51 +50,52 @@ template <int N, int FlatN>
 class TaylorIntegrator {
  public:
   TaylorIntegrator(const Setup& setup, const Settings& settings, History* history)
-      : life_(setup, settings, history, !follows_record(setup.shaking)),
-        flat_exactly_(!life_.rig.laws),
-        straight_{life_.rig.laws && life_.rig.laws->straight(false), life_.rig.laws && life_.rig.laws->straight(true)},
+      : trajectory_(setup, settings, history, !follows_record(setup.shaking)),
+        flat_exactly_(!trajectory_.rig.laws),
+        straight_{trajectory_.rig.laws && trajectory_.rig.laws->straight(false),
+                  trajectory_.rig.laws && trajectory_.rig.laws->straight(true)},
         size_(setup.specimen.block) {}
 
   Response run() {
     while (goes_on()) step();
-    return life_.result();
+    return trajectory_.result();
   }
 
   // Ends the sample when it is time to.
   bool goes_on() {
-    life_.stop_when_done();
-    return !life_.finished();
+    trajectory_.stop_when_done();
+    return !trajectory_.finished();
   }
 
   // Compiled once, in taylor_integrator.cpp. Along `arc`: a step whose series is known.
   void step();
   void step_along(const LawArc<N>& arc);
 
-  Integration& life() { return life_; }
+  Integration& trajectory() { return trajectory_; }
   const Sizes& sizes() const { return size_; }
 
  private:
   void move_on(const Floor<double, N>& floor) {
-    with_contact_arc<N>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& arc) {
+    with_contact_arc<N>(trajectory_.rig, trajectory_.state, trajectory_.cursor.time(), floor, [&](const auto& arc) {
       if (has_forces(arc))
         step_along(arc, floor, length_of_step(arc));
       else
-        life_.resolve(Witness::regular);
+        trajectory_.resolve(Witness::regular);
     });
   }
   void slide_exactly(const Floor<double, FlatN>& floor) {
-    const auto arc = contact_arc<FlatN>(life_.rig, life_.state, floor);
+    const auto arc = contact_arc<FlatN>(trajectory_.rig, trajectory_.state, floor);
     if (has_forces(arc))
       step_along(arc, floor, whole_step());
     else
-      life_.resolve(Witness::regular);
+      trajectory_.resolve(Witness::regular);
   }
 
   // What turns is seen over a tenth of a radian at most, for the gaps under the corners.
   void fly_on(const Floor<double, N>& floor) {
-    const double turn = std::abs(life_.state.omega);
+    const double turn = std::abs(trajectory_.state.omega);
     const double quarter = turn > 0 ? 0.1 / turn : 0.1;
-    with_flight_arc<N>(life_.rig, life_.state, life_.cursor.time(), floor, [&](const auto& flight) {
+    with_flight_arc<N>(trajectory_.rig, trajectory_.state, trajectory_.cursor.time(), floor, [&](const auto& flight) {
       step_along(flight, floor, std::min(length_of_step(flight), quarter));
     });
   }
@@ -102,23 +103,23 @@ class TaylorIntegrator {
   // Along the series of the state's mode, over h at most, to the first event or as far as the laws follow it.
   template <class Arc, int M>
   void step_along(const Arc& arc, const Floor<double, M>& floor, double h) {
-    const State before = life_.state;
+    const State before = trajectory_.state;
     Found found = first_event(before, arc, h);
     while (found.tau > shortest_step * size_.longest_step_s && !follows_laws(before, arc, floor, found.tau)) {
       h = 0.5 * found.tau;
       found = first_event(before, arc, h);
     }
     const double tau = found.tau;
-    if (tau > 0) life_.peaks.observe(life_.rig, before, arc, tau);
-    life_.recorder.record(before, arc, floor, life_.cursor.time(), tau);
-    go_to(life_.rig, life_.state, arc, tau);
+    if (tau > 0) trajectory_.peaks.observe(trajectory_.rig, before, arc, tau);
+    trajectory_.recorder.record(before, arc, floor, trajectory_.cursor.time(), tau);
+    go_to(trajectory_.rig, trajectory_.state, arc, tau);
     end_step(found, h);
   }
 
   template <class Arc>
   Found first_event(const State& state, const Arc& arc, double h) const {
     FirstEvent first(h);
-    for_each_witness(life_.rig, state, arc, first);
+    for_each_witness(trajectory_.rig, state, arc, first);
     return first.found();
   }
 
@@ -126,23 +127,24 @@ class TaylorIntegrator {
   // time, say) while later ones do not: the last term alone is no judge.
   template <int M>
   bool follows_laws(const State& before, const LawArc<M>& arc, const Floor<double, M>& floor, double tau) const {
-    const Laws& laws = *life_.rig.laws;
+    const Laws& laws = *trajectory_.rig.laws;
     const bool grip_changes = before.sigma == 0 && laws.grip_changes();
     if (straight_[before.sigma != 0] && !grip_changes) return true;
     State end = before;
-    go_to(life_.rig, end, arc, tau);
+    go_to(trajectory_.rig, end, arc, tau);
     const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
-    LawStep<1> there_on(life_.rig, end, life_.cursor.time() + tau, there);
+    LawStep<1> there_on(trajectory_.rig, end, trajectory_.cursor.time() + tau, there);
     const LawArc<1>& fresh = there_on.accelerations();
-    const double grip = grip_changes ? grip_missed(life_.rig, end, life_.cursor.time() + tau, there, arc, tau) : 0.0;
+    const double grip =
+        grip_changes ? grip_missed(trajectory_.rig, end, trajectory_.cursor.time() + tau, there, arc, tau) : 0.0;
     return missed_little(fresh.w[1], derivative(arc.w).at(tau), fresh.omega[1], derivative(arc.omega).at(tau), tau) &&
-           grip * size_.over_speed * tau <= defect_allowed * life_.settings.tolerance;
+           grip * size_.over_speed * tau <= defect_allowed * trajectory_.settings.tolerance;
   }
   bool follows_laws(const State& before, const LawFlight<N>& flight, const Floor<double, N>& floor, double tau) const {
     State end = before;
-    go_to(life_.rig, end, flight, tau);
+    go_to(trajectory_.rig, end, flight, tau);
     const Floor<double, 1> there{{floor.a.at(tau), 0}, {floor.g.at(tau), 0}};
-    const LawFlight<1> fresh = fly_with_laws<1>(life_.rig, end, life_.cursor.time() + tau, there);
+    const LawFlight<1> fresh = fly_with_laws<1>(trajectory_.rig, end, trajectory_.cursor.time() + tau, there);
     return missed_little(fresh.vx[1], derivative(flight.vx).at(tau), fresh.omega[1], derivative(flight.omega).at(tau),
                          tau);
   }
@@ -152,18 +154,18 @@ class TaylorIntegrator {
     return true;
   }
   bool missed_little(double slip, double slip_of_series, double turn, double turn_of_series, double tau) const {
-    const double allowed = defect_allowed * life_.settings.tolerance;
+    const double allowed = defect_allowed * trajectory_.settings.tolerance;
     return std::abs(slip - slip_of_series) * size_.over_speed * tau <= allowed &&
            std::abs(turn - turn_of_series) * size_.over_rotation * tau <= allowed;
   }
 
   // A step that reached the knot goes to the next segment; an event is resolved where it fell.
   void end_step(const Found& found, double h) {
-    const bool at_knot = !found.any && h == life_.cursor.left();
-    life_.cursor.advance(found.tau);
-    if (found.tau > 0) life_.left_instant(found.tau);
-    if (at_knot) life_.next_segment();
-    if (found.any) life_.resolve(found.witness);
+    const bool at_knot = !found.any && h == trajectory_.cursor.left();
+    trajectory_.cursor.advance(found.tau);
+    if (found.tau > 0) trajectory_.left_instant(found.tau);
+    if (at_knot) trajectory_.next_segment();
+    if (found.any) trajectory_.resolve(found.witness);
   }
 
   // Last term of the series, dimensionless, over tau^N: a step neglects about as much in the forces, and less in the state.
@@ -185,23 +187,23 @@ class TaylorIntegrator {
   }
   double last_of_states(const Series<double, N>* states) const {
     double most = 0;
-    for (int i = 0; i < life_.rig.laws->states; ++i)
-      most = std::max(
-          most, std::abs(states[i][N]) * (life_.rig.laws->relative_velocity[i] ? size_.over_speed : size_.over_length));
+    for (int i = 0; i < trajectory_.rig.laws->states; ++i)
+      most = std::max(most, std::abs(states[i][N]) *
+                                (trajectory_.rig.laws->relative_velocity[i] ? size_.over_speed : size_.over_length));
     return most;
   }
 
-  double whole_step() const { return std::min(life_.left(), size_.longest_step_s); }
+  double whole_step() const { return std::min(trajectory_.left(), size_.longest_step_s); }
 
   template <class Arc>
   double length_of_step(const Arc& arc) const {
-    const double h = whole_step(), last = last_term(arc), tolerance = life_.settings.tolerance;
+    const double h = whole_step(), last = last_term(arc), tolerance = trajectory_.settings.tolerance;
     if (!(last * whole_power<N>(h) > tolerance)) return h;
     const double longest = size_.longest_step_s;  // in its terms the answer at half the scale has the same bits
     return longest * std::pow(tolerance / (last * whole_power<N>(longest)), 1.0 / N);
   }
 
-  Integration life_;
+  Integration trajectory_;
   bool flat_exactly_;  // steps of order FlatN are exact on both corners
   bool straight_[2];   // laws of what is stuck, and of what slips
   Sizes size_;

@@ -274,10 +274,11 @@ auto with_flight_arc(const Rig& rig, const State& state, double time, const Floo
 // When the raised corner would be down again under the pull that it has now; infinite: not at all.
 template <int N>
 double fall_time(int pivot, const Series<double, N>& theta) {
-  const double height = pivot * theta[0], rate = pivot * theta[1], bend = pivot * theta[2];
-  const double root = std::sqrt(std::fmax(rate * rate - 4 * bend * height, 0.0));
-  if (bend < 0 && rate > 0) return (rate + root) / (-2 * bend);
-  return bend < 0 || (rate < 0 && root > 0) ? 2 * height / (root - rate) : std::numeric_limits<double>::infinity();
+  const double height = pivot * theta[0], rate = pivot * theta[1], half_curvature = pivot * theta[2];
+  const double root = std::sqrt(std::fmax(rate * rate - 4 * half_curvature * height, 0.0));
+  if (half_curvature < 0 && rate > 0) return (rate + root) / (-2 * half_curvature);
+  return half_curvature < 0 || (rate < 0 && root > 0) ? 2 * height / (root - rate)
+                                                      : std::numeric_limits<double>::infinity();
 }
 
 // The first event of the mode within h.

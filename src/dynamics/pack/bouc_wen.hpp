@@ -36,18 +36,18 @@ class BoucWenPool {
   static constexpr int slots = 32;
 
   struct Rows {
-    alignas(64) double zeta[slots], p[slots], slip[slots], q[slots], A[slots], slope[slots], left[slots];
+    alignas(64) double zeta[slots], p[slots], slip[slots], q[slots], A[slots], slope[slots], fraction[slots];
     alignas(64) double W[slots], over_w[slots], n[slots], saturated[slots], tolerance[slots], live[slots];
   };
   struct Terms {
     alignas(64) double p[N + 1][wide_lanes], zeta[N + 1][wide_lanes], slip[N + 1][wide_lanes], tau[wide_lanes],
-        A[wide_lanes], left[wide_lanes];
+        A[wide_lanes], fraction[wide_lanes];
   };
 
   void march(int from) {
     const Wide zeta0 = wide(r_.zeta + from), p0 = wide(r_.p + from), A = wide(r_.A + from),
                slope = wide(r_.slope + from);
-    const Wide W = wide(r_.W + from), n = wide(r_.n + from), left = wide(r_.left + from);
+    const Wide W = wide(r_.W + from), n = wide(r_.n + from), fraction = wide(r_.fraction + from);
     Wide p[N + 1], zeta[N + 1], slip[N + 1], q[N], d[N + 1], nd[N + 1], e[N];  // d_k = k zeta_k, e_k = k q_k
     p[0] = p0;
     zeta[0] = zeta0;
@@ -88,8 +88,8 @@ class BoucWenPool {
     // The largest part of the interval over which the last terms are within the tolerance, and the terms that follow are
     // less: those of q, at worst, are those of exp(n ln zeta).
     const Wide last = larger(magnitude(zeta[N]), magnitude(p[N]) * wide(r_.over_w + from));
-    const Wide fastest = p0 + Wide(0.5) * magnitude(p[1]) * left;
-    const Wide longest = smaller(left, Wide(longest_power) * zeta0 / (n * fastest));
+    const Wide fastest = p0 + Wide(0.5) * magnitude(p[1]) * fraction;
+    const Wide longest = smaller(fraction, Wide(longest_power) * zeta0 / (n * fastest));
     const Wide tau = smaller(longest, eighth_root(wide(r_.tolerance + from) / last));
 
     Wide p1 = p[N], zeta1 = zeta[N], slip1 = slip[N];
@@ -103,14 +103,14 @@ class BoucWenPool {
     const Wide margin = tau * tau * (Wide(0.125) * magnitude(slope) + Wide(0.1875) * W * larger(p0, p1));
     const unsigned live = wide(r_.live + from) > Wide(0.5);
     const unsigned full = (wide(r_.saturated + from) >= Wide(1.0) - q1) & live;
-    const unsigned at_knot = (tau >= left) & live;
+    const unsigned at_knot = (tau >= fraction) & live;
     const unsigned slow = ~(smaller(p0, p1) > margin) & live;
     put(r_.zeta + from, zeta1);
     put(r_.p + from, p1);
     put(r_.slip + from, slip1);
     put(r_.q + from, q1);
     put(r_.A + from, A + slope * tau);
-    put(r_.left + from, left - tau);
+    put(r_.fraction + from, fraction - tau);
     unsigned stopped = 0;
     if (slow) {
       Terms terms;
@@ -122,7 +122,7 @@ class BoucWenPool {
       }
       put(terms.tau, tau);
       put(terms.A, A);
-      put(terms.left, left);
+      put(terms.fraction, fraction);
       for (unsigned rest = slow; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
         if (look_for_stop(from, lane, terms)) stopped |= 1U << lane;
@@ -147,7 +147,7 @@ class BoucWenPool {
     }
     BoucWenLane& one = lanes_[i];
     one.A = terms.A[lane];
-    one.left = terms.left[lane];
+    one.fraction = terms.fraction[lane];
     BoucWenLane::Next next;
     if (!one.stops<N>(p, zeta, slip, terms.tau[lane], next)) return false;
     settle(i, next);
@@ -159,7 +159,7 @@ class BoucWenPool {
     lane.next_interval();
     r_.A[i] = lane.A;
     r_.slope[i] = lane.slope;
-    r_.left[i] = 1;
+    r_.fraction[i] = 1;
   }
 
   // The lane's own copy of what the rows hold.
@@ -169,7 +169,7 @@ class BoucWenPool {
     lane.p = r_.p[i];
     lane.slip = r_.slip[i];
     lane.A = r_.A[i];
-    lane.left = r_.left[i];
+    lane.fraction = r_.fraction[i];
   }
 
   void settle(int i, BoucWenLane::Next next) {
@@ -207,7 +207,7 @@ class BoucWenPool {
     int last = slots - 1;
     while (last > i && r_.live[last] == 0) --last;
     if (last / wide_lanes == i / wide_lanes) return;
-    for (double* row : {r_.zeta, r_.p, r_.slip, r_.q, r_.A, r_.slope, r_.left, r_.W, r_.over_w, r_.n, r_.saturated,
+    for (double* row : {r_.zeta, r_.p, r_.slip, r_.q, r_.A, r_.slope, r_.fraction, r_.W, r_.over_w, r_.n, r_.saturated,
                         r_.tolerance, r_.live})
       row[i] = row[last];
     lanes_[i] = lanes_[last];
@@ -223,7 +223,7 @@ class BoucWenPool {
     r_.slip[i] = lane.slip;
     r_.A[i] = lane.A;
     r_.slope[i] = lane.slope;
-    r_.left[i] = lane.left;
+    r_.fraction[i] = lane.fraction;
     r_.q[i] = power_of_one(lane.zeta, lane.n);
   }
 
@@ -234,7 +234,7 @@ class BoucWenPool {
 
   void clear(int i) {
     r_.zeta[i] = r_.q[i] = 0.5;
-    r_.p[i] = r_.n[i] = r_.left[i] = r_.over_w[i] = r_.tolerance[i] = 1;
+    r_.p[i] = r_.n[i] = r_.fraction[i] = r_.over_w[i] = r_.tolerance[i] = 1;
     r_.slip[i] = r_.A[i] = r_.slope[i] = r_.W[i] = r_.saturated[i] = r_.live[i] = 0;
   }
 

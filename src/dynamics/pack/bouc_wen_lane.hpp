@@ -56,8 +56,8 @@ class BoucWenLane {
     return on_from(Next::turned);
   }
 
-  // The state, in the direction of the motion. `left` of the interval lies ahead; `slip` is u_p of the present motion.
-  double zeta, p, slip, A, slope, left;
+  // The state, in the direction of the motion. `fraction` of the interval lies ahead; `slip` is u_p of the present motion.
+  double zeta, p, slip, A, slope, fraction;
   double W, n, over_w;
 
   // The interval is over.
@@ -68,7 +68,7 @@ class BoucWenLane {
       load_interval();
     } else {
       A = first_ + part_ * slope;
-      left = 1;
+      fraction = 1;
     }
   }
 
@@ -138,7 +138,7 @@ class BoucWenLane {
   }
 
   void load_interval() {
-    left = 1;
+    fraction = 1;
     if (knot_ >= knots_) {
       A = first_ = slope = 0;
       return;
@@ -171,7 +171,7 @@ class BoucWenLane {
   template <int N>
   Next swing_on() {
     for (Next next;;) {
-      if (left == 1 && pass_intervals()) return Next::declined;
+      if (fraction == 1 && pass_intervals()) return Next::declined;
       if (event<N>(next)) return next;
       if (knot_ > last_knot()) return Next::declined;
     }
@@ -243,13 +243,13 @@ class BoucWenLane {
   bool event(Next& next) {
     const double limit = limit_;
     const Swing<N> s = swing<N>();
-    const double p1 = polynomial<N>(s.p, left);
+    const double p1 = polynomial<N>(s.p, fraction);
     const double fastest = p > p1 ? p : p1;
-    const double margin = left * left * (0.125 * (slope < 0 ? -slope : slope) + 0.1875 * W * fastest);
-    double stop = -1, end = left;
+    const double margin = fraction * fraction * (0.125 * (slope < 0 ? -slope : slope) + 0.1875 * W * fastest);
+    double stop = -1, end = fraction;
     if (!(p > margin && p1 > margin)) {
-      if (p1 <= 0) stop = quick_stop<N>(s.p, s.zeta, A, slope, W, left);
-      if (stop < 0) stop = first_stop<N>(s.p, left);
+      if (p1 <= 0) stop = quick_stop<N>(s.p, s.zeta, A, slope, W, fraction);
+      if (stop < 0) stop = first_stop<N>(s.p, fraction);
       if (stop >= 0) end = stop;
     }
     const double z1 = polynomial<N>(s.zeta, end);
@@ -290,26 +290,26 @@ class BoucWenLane {
 
   void go(double tau) {
     A += slope * tau;
-    left -= tau;
-    if (left < 1e-13) next_interval();  // [s]: round-off of the interval's length; a push of 1e-12 m/s
+    fraction -= tau;
+    if (fraction < 1e-13) next_interval();  // [s]: round-off of the interval's length; a push of 1e-12 m/s
   }
 
   // Sliding, to the turn.
   Next slide() {
     for (;;) {
       const double pull = A + W;
-      const double p1 = p - left * (pull + 0.5 * left * slope);
-      const double margin = 0.125 * left * left * (slope < 0 ? -slope : slope);
+      const double p1 = p - fraction * (pull + 0.5 * fraction * slope);
+      const double margin = 0.125 * fraction * fraction * (slope < 0 ? -slope : slope);
       if (p > margin && p1 > margin) {
-        slip += left * (p - left * (0.5 * pull + left * slope * (1.0 / 6)));
+        slip += fraction * (p - fraction * (0.5 * pull + fraction * slope * (1.0 / 6)));
         p = p1;
         next_interval();
         if (knot_ > last_knot()) return Next::declined;
         continue;
       }
       const double series[3] = {p, -pull, -0.5 * slope};
-      const double stop = first_stop<2>(series, left);
-      const double end = stop < 0 ? left : stop;
+      const double stop = first_stop<2>(series, fraction);
+      const double end = stop < 0 ? fraction : stop;
       slip += end * (p - end * (0.5 * pull + end * slope * (1.0 / 6)));
       if (stop >= 0) return turn(stop);
       p = p1;
@@ -369,7 +369,7 @@ class BoucWenLane {
     result.slid_path_m = path_ * y;
     result.peak_acceleration_mps2 = peak_zeta_ * sample_->contact.strength * sample_->g;
     result.events = events_;
-    result.end_time_s = (knot_ + (part_ + 1 - left) / parts_) * sample_->table->step_s;
+    result.end_time_s = (knot_ + (part_ + 1 - fraction) / parts_) * sample_->table->step_s;
   }
 
   static constexpr long most_turns = 2000000;

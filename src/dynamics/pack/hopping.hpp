@@ -31,27 +31,29 @@ class Hopping : public LaneGroup<HopRows<Gravity>> {
  private:
   unsigned march(int i, unsigned here) {
     const Pack zero(0.0), one(1.0), two(2.0);
-    const Pack left = load(r_.left + i), theta = load(r_.theta + i), omega = load(r_.omega + i), a = load(r_.a + i);
-    const Pack a_next = fetch(r_.next + i), rate = (a_next - a) / left, side = load(r_.side + i);
+    const Pack fraction = load(r_.fraction + i), theta = load(r_.theta + i), omega = load(r_.omega + i),
+               a = load(r_.a + i);
+    const Pack a_next = fetch(r_.next + i), rate = (a_next - a) / fraction, side = load(r_.side + i);
     const PackMask right = side > zero;
     const auto on = [&](const double(&row)[2][march_slots]) {
       return choose(right, load(row[1] + i), load(row[0] + i));
     };
-    const Pack weight = on(r_.weight), tip = on(r_.tip), bend = on(r_.bend);
-    const typename Gravity::Hop shakes(r_.shakes, i, r_.next + i, left, right);
+    const Pack weight = on(r_.weight), tip = on(r_.tip), kappa_by_a = on(r_.kappa_by_a);
+    const typename Gravity::Hop shakes(r_.shakes, i, r_.next + i, fraction, right);
     const Pack beta = shakes.beta(weight + tip * a), low = xsimd::min(beta, shakes.beta_next(weight + tip * a_next)),
                top = omega * omega + two * theta * beta;
     const PackMask holds = shakes.holds((top * top < load(r_.limit2 + i) * (low * low)) &
                                         (xsimd::max(xsimd::abs(a), xsimd::abs(a_next)) <= load(r_.push + i)));
-    const HopSeries y(theta, omega, beta, shakes.beta_rate(tip * rate), shakes.kappa(on(r_.kappa) - bend * a),
-                      shakes.kappa_rate(zero - bend * rate));
-    const Pack end = y.height(left);
+    const HopSeries y(theta, omega, beta, shakes.beta_rate(tip * rate), shakes.kappa(on(r_.kappa) - kappa_by_a * a),
+                      shakes.kappa_rate(zero - kappa_by_a * rate));
+    const Pack end = y.height(fraction);
     const PackMask crosses = holds & (end > zero);
     PackMask open = holds & ~crosses;
-    const Pack landing = y.landing(open), t = choose(crosses, left, landing), speed = y.speed(t);
-    const PackMask lands = holds & ~crosses & ~open & (t > zero) & (t <= left), goes = crosses | lands, stays = ~goes;
+    const Pack landing = y.landing(open), t = choose(crosses, fraction, landing), speed = y.speed(t);
+    const PackMask lands = holds & ~crosses & ~open & (t > zero) & (t <= fraction), goes = crosses | lands,
+                   stays = ~goes;
 
-    const Pack falls = xsimd::abs(speed), ahead = left - t, rises = falls * on(r_.kept);
+    const Pack falls = xsimd::abs(speed), ahead = fraction - t, rises = falls * on(r_.kept);
     // At 100 intervals a second 1e-12 of one are 1e-14 s, to which events are located.
     const PackMask to_knot = crosses | (lands & (ahead < Pack(1e-12)));
     const PackMask told = lands & (falls * falls >= on(r_.told));
@@ -62,7 +64,7 @@ class Hopping : public LaneGroup<HopRows<Gravity>> {
     store_where(goes, r_.omega + i, choose(lands, rises, speed));
     store_where(goes, r_.a + i, choose(to_knot, a_next, a + rate * t));
     shakes.keep(r_.shakes, i, stays, to_knot, t);
-    store_where(goes, r_.left + i, choose(to_knot, one, ahead));
+    store_where(goes, r_.fraction + i, choose(to_knot, one, ahead));
     store_where(lands, r_.side + i, zero - side);
     store_where(lands, r_.hops + i, hops);
     store_where(told, r_.impacts + i, load(r_.impacts + i) + one);

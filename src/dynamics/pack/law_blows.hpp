@@ -2,7 +2,7 @@
 // on about that corner. The same decisions and bits as Integration::resolve's.
 #pragma once
 
-#include "dynamics/blow.hpp"
+#include "dynamics/impulse.hpp"
 #include "dynamics/integration.hpp"
 #include "dynamics/law_step.hpp"
 #include "dynamics/pack/lane_numbers.hpp"

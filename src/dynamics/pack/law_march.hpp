@@ -33,7 +33,7 @@ class LawMarchOf {
         on_legs_(laws_.legs.frequency_radps > 0),
         base_moves_(slipping || on_legs_),
         numbers_(rows, first),
-        ground_(rows, first),
+        corner_constants_(rows, first),
         floor_{Series<Pack, N>::zero(), Series<Pack, N>::zero()},
         there_{Series<Pack, 1>::zero(), Series<Pack, 1>::zero()},
         step_(laws_, here_, numbers_, {}, floor_),
@@ -61,19 +61,19 @@ class LawMarchOf {
     struck_ &= lanes_here;
     Stopped stopped{0, 0, 0};
     while (!(stopped.before_step | stopped.at_end | stopped.undecided)) {
-      ground_.look(floor_);
+      corner_constants_.look(floor_);
       const Arc& arc = step_.run();
       h_ = reach_ = length_of_step(arc, lanes_here);
       PackMask sure = nothing_happens(arc, lanes_here);
       sure = sure & follows_laws(arc);
       if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
       stopped.undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) : 0;
-      history_.rocked_on(struck_ & ~stopped.undecided, ground_.time(), here_.pivot);
+      history_.rocked_on(struck_ & ~stopped.undecided, corner_constants_.time(), here_.pivot);
       struck_ = stopped.undecided;
       const unsigned free = see_extremes(arc, bits(sure) & lanes_here & ~stopped.undecided);
       stopped.before_step = lanes_here & ~(free | stopped.undecided);
       for (unsigned open = stopped.before_step; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
-      history_.record(free, arc, u_, floor_, here_, laws_.lift >= 0, ground_.time(), reach_);
+      history_.record(free, arc, u_, floor_, here_, laws_.lift >= 0, corner_constants_.time(), reach_);
       stopped.at_end = go_on(free);
     }
     save();
@@ -108,7 +108,7 @@ class LawMarchOf {
     here_.path = number(Row::path);
     here_.deflection = number(Row::deflection);
     for (int i = 0; i < laws_.states; ++i) here_.states[i] = number(state_row(i));
-    here_.time = ground_.time();
+    here_.time = corner_constants_.time();
     slip_ = number(Row::peak_slip);
     slip_right_ = number(Row::peak_slip_right);
     slip_left_ = number(Row::peak_slip_left);
@@ -129,7 +129,7 @@ class LawMarchOf {
     keep(Row::deflection, at.deflection);
     keep(Row::still_since, at.still_since);
     for (int i = 0; i < laws_.states; ++i) keep(state_row(i), at.states[i]);
-    ground_.save();
+    corner_constants_.save();
     history_.save();
     keep(Row::peak_slip, slip_);
     keep(Row::peak_slip_right, slip_right_);
@@ -144,7 +144,7 @@ class LawMarchOf {
 
   // As TaylorIntegrator's.
   Pack length_of_step(const Arc& arc, unsigned lanes_here) const {
-    const Pack longest = number(Row::longest_step_s), whole = xsimd::min(ground_.left(), longest);
+    const Pack longest = number(Row::longest_step_s), whole = xsimd::min(corner_constants_.left(), longest);
     Pack last(0.0);
     const auto neglects = [&](const Series<Pack, N>& y, Row over) {
       last = xsimd::max(last, xsimd::abs(y[N]) * number(over));
@@ -177,7 +177,8 @@ class LawMarchOf {
   PackMask nothing_happens(const Arc& arc, unsigned lanes_here) {
     strikes_ = h_ < h_;
     PackMask sure = h_ > Pack(shortest_step) * number(Row::longest_step_s);
-    if (const unsigned within = lanes_here & ~ground_.to_knot(h_)) sure = sure & lanes_of(~(within & watched()));
+    if (const unsigned within = lanes_here & ~corner_constants_.to_knot(h_))
+      sure = sure & lanes_of(~(within & watched()));
     if (slipping && laws_.friction >= 0) sure = sure & (arc.friction >= Pack(0.0));
     visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, N>& y) {
       PackMask positive = surely_positive(y, h_);
@@ -282,20 +283,20 @@ class LawMarchOf {
 
   // Those that are free go to the end of their step; bit l: lane l is at the end of its motion, or of its time.
   unsigned go_on(unsigned free) {
-    const unsigned struck = bits(strikes_) & free, at_knot = ground_.to_knot(h_) & free & ~struck;
+    const unsigned struck = bits(strikes_) & free, at_knot = corner_constants_.to_knot(h_) & free & ~struck;
     const PackMask goes = lanes_of(free);
-    ground_.advance(goes, reach_);
-    unsigned at_end = at_knot ? ground_.next_segment(at_knot, lanes_of(at_knot)) : 0;
+    corner_constants_.advance(goes, reach_);
+    unsigned at_end = at_knot ? corner_constants_.next_segment(at_knot, lanes_of(at_knot)) : 0;
     const unsigned within = free & ~at_knot & ~struck;
     if (within) {
-      const unsigned ends = ground_.at_end() & within;
+      const unsigned ends = corner_constants_.at_end() & within;
       at_end |= ends;
       for (unsigned open = within & ~ends; open; open &= open - 1) ++rows_.steps[first_ + __builtin_ctz(open)];
     }
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
     Standing<Pack>&at = here_, &to = to_;
     if (struck) {
-      at.still_since = freestand::choose(lanes_of(struck), ground_.time(), at.still_since);
+      at.still_since = freestand::choose(lanes_of(struck), corner_constants_.time(), at.still_since);
       blows_.stand(lanes_of(struck), struck, to);
       at.body.c = to.body.c;
       at.half_base = to.half_base;
@@ -311,7 +312,7 @@ class LawMarchOf {
     move(at.path, to.path);
     move(at.deflection, to.deflection);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to.states[i]);
-    at.time = ground_.time();
+    at.time = corner_constants_.time();
     move(slip_, new_slip_);
     if (rows_.slip_by_side) {
       move(slip_right_, new_slip_right_);
@@ -356,7 +357,7 @@ class LawMarchOf {
   Pack slip_, slip_right_, slip_left_, slid_, rotation_, acceleration_;
   Pack new_slip_, new_slip_right_, new_slip_left_, new_slid_, new_rotation_, new_acceleration_;
   Standing<Pack> here_, to_;
-  LaneFloor<Motion> ground_;
+  LaneFloor<Motion> corner_constants_;
   Floor<Pack, N> floor_;
   Floor<Pack, 1> there_;
   Step step_;

@@ -91,10 +91,10 @@ double first_fall(const double* c, double end, int depth = 0) {
       if (evaluate<M>(c, hi) > 0) return 2;
     }
     const double f_hi = hi == end ? at_end : evaluate<M>(c, hi);
-    const double bend = f_hi - c[0] - slope[0] * hi;  // of the parabola through both ends, in x/hi
-    const double rate = slope[0] * hi, square = rate * rate - 4 * bend * c[0];
+    const double half_curvature = f_hi - c[0] - slope[0] * hi;  // of the parabola through both ends, in x/hi
+    const double rate = slope[0] * hi, square = rate * rate - 4 * half_curvature * c[0];
     const double root = std::sqrt(square > 0 ? square : 0.0);
-    const double guess = hi * (rate > 0 ? (rate + root) / (-2 * bend) : 2 * c[0] / (root - rate));
+    const double guess = hi * (rate > 0 ? (rate + root) / (-2 * half_curvature) : 2 * c[0] / (root - rate));
     return newton_in<M>(c, 0, hi, guess);
   }
 }

@@ -26,7 +26,7 @@ struct Steady {
     static const Pack& gravity(const Pack& g) { return g; }
     static const Pack& per_inertia(const Pack& g) { return g; }
     static const Pack& lifted(const Pack& y) { return y; }
-    static const Pack& bent(const Pack& bend) { return bend; }
+    static const Pack& curvature_with(const Pack& curvature) { return curvature; }
     static void keep(Rows&, int, const PackMask&) {}
   };
 
@@ -52,8 +52,8 @@ struct Shaken {
     alignas(64) double v[march_slots] = {};            // unit record, at the knot
     alignas(64) double weight[march_slots] = {};       // scale h^2
     alignas(64) double per_inertia[march_slots] = {};  // 1/J
-    alignas(64) double bend[march_slots] = {};         // as bend1 of the rows, for changes of v h^2
-    auto all() { return std::array{v, weight, per_inertia, bend}; }
+    alignas(64) double curvature[march_slots] = {};    // as curvature1 of the rows, for changes of v h^2
+    auto all() { return std::array{v, weight, per_inertia, curvature}; }
   };
   class Interval {
    public:
@@ -62,7 +62,7 @@ struct Shaken {
           unit_next_(fetch(next, 1)),
           weight_(load(rows.weight + i)),
           per_(load(rows.per_inertia + i)),
-          bend_(load(rows.bend + i)) {}
+          curvature_(load(rows.curvature + i)) {}
 
     Straight<Pack> lift() const { return {weight_ * unit_, weight_ * (unit_next_ - unit_)}; }  // v h^2
     Straight<Pack> gravity(const Pack& g) const {                                              // g' h^2 from g h^2
@@ -74,12 +74,12 @@ struct Shaken {
       return {g + v.start, v.rate};
     }
     Pack lifted(const Pack& y) const { return y + weight_ * unit_next_; }
-    Pack bent(const Pack& bend) const { return bend + bend_ * xsimd::abs(lift().rate); }
+    Pack curvature_with(const Pack& curvature) const { return curvature + curvature_ * xsimd::abs(lift().rate); }
     // Its end is the start of the next one, but in the lanes of `stays`.
     void keep(Rows& rows, int i, const PackMask& stays) const { store(rows.v + i, choose(stays, unit_, unit_next_)); }
 
    private:
-    const Pack unit_, unit_next_, weight_, per_, bend_;
+    const Pack unit_, unit_next_, weight_, per_, curvature_;
   };
 
   struct HopRows {
@@ -90,10 +90,10 @@ struct Shaken {
   };
   class Hop {
    public:
-    Hop(const HopRows& rows, int i, const double* const* next, const Pack& left, const PackMask& right)
+    Hop(const HopRows& rows, int i, const double* const* next, const Pack& fraction, const PackMask& right)
         : v_(load(rows.v + i)),
           next_(fetch(next, 1)),
-          rate_((next_ - v_) / left),
+          rate_((next_ - v_) / fraction),
           most_(load(rows.most + i)),
           lift_(choose(right, load(rows.lift[1] + i), load(rows.lift[0] + i))),
           turn_(choose(right, load(rows.turn[1] + i), load(rows.turn[0] + i))) {}

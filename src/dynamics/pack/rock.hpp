@@ -67,7 +67,7 @@ class RockPool : RockHops {
   struct Aside {
     int slots[pack_lanes];
     int count;
-    Pack left, left2, a, rate, side, gravity, push;
+    Pack fraction, fraction2, a, rate, side, gravity, push;
     RockSeries<N> y;
     Pack last, theta_end, omega_end, sense;
     PackMask turns, falls;
@@ -109,16 +109,16 @@ class RockPool : RockHops {
     };
     alignas(64) double nexts[pack_lanes];
     for (int l = 0; l < pack_lanes; ++l) nexts[l] = *r_.next[slots[l]];
-    lanes.left = gathered(r_.left);
-    lanes.left2 = lanes.left * lanes.left;
+    lanes.fraction = gathered(r_.fraction);
+    lanes.fraction2 = lanes.fraction * lanes.fraction;
     lanes.a = gathered(r_.a);
     lanes.rate = load(nexts) - lanes.a;
     lanes.side = gathered(r_.side);
-    lanes.gravity = gathered(r_.gravity) * lanes.left2;
-    lanes.push = gathered(r_.push) * lanes.left2;
+    lanes.gravity = gathered(r_.gravity) * lanes.fraction2;
+    lanes.push = gathered(r_.push) * lanes.fraction2;
     RockSeries<N>& y = lanes.y;
     y.theta[0] = gathered(r_.theta);
-    y.omega[0] = gathered(r_.omega) * lanes.left;
+    y.omega[0] = gathered(r_.omega) * lanes.fraction;
     y.rx[0] = gathered(r_.rx);
     y.ry[0] = gathered(r_.ry);
     y.expand(lanes.gravity, lanes.push * lanes.a, lanes.push * lanes.rate);
@@ -172,16 +172,16 @@ class RockPool : RockHops {
       seen[l] = r_.force2[lanes.slots[l]];
       weights[l] = r_.weight[lanes.slots[l]];
     }
-    const Pack left4 = lanes.left2 * lanes.left2;
-    const Pack force2 = watch_force(y, load(weights) * lanes.left2, lanes.gravity, lanes.push, lanes.a, lanes.rate, end,
-                                    part, load(seen) * left4, true) /
-                        left4;
+    const Pack fraction4 = lanes.fraction2 * lanes.fraction2;
+    const Pack force2 = watch_force(y, load(weights) * lanes.fraction2, lanes.gravity, lanes.push, lanes.a, lanes.rate,
+                                    end, part, load(seen) * fraction4, true) /
+                        fraction4;
     const PackMask rises = lanes.sense == side;
     const Pack highest = xsimd::max(side * y.theta[0], choose(lanes.turns & rises, low_turn, side * theta));
 
     Ends ends;
     store(ends.theta, theta);
-    store(ends.omega, end.omega / lanes.left);
+    store(ends.omega, end.omega / lanes.fraction);
     store(ends.rx, end.rx);
     store(ends.ry, end.ry);
     store(ends.part, part);
@@ -204,7 +204,7 @@ class RockPool : RockHops {
     if (ends.force2[l] > r_.force2[i]) r_.force2[i] = ends.force2[l];
     r_.peak[i] = larger(r_.peak[i], ends.highest[l]);
     if (hits) {
-      r_.left[i] -= r_.left[i] * ends.part[l];
+      r_.fraction[i] -= r_.fraction[i] * ends.part[l];
       r_.a[i] = ends.a[l];
       return strike(i, ends.omega[l]);
     }
@@ -213,7 +213,7 @@ class RockPool : RockHops {
     r_.rx[i] = ends.rx[l];
     r_.ry[i] = ends.ry[l];
     if (ends.part[l] < 1) {
-      r_.left[i] -= r_.left[i] * ends.part[l];
+      r_.fraction[i] -= r_.fraction[i] * ends.part[l];
       r_.a[i] = ends.a[l];
     } else {
       to_next_knot(i);
@@ -226,13 +226,13 @@ class RockPool : RockHops {
     Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
     RockSeries<N> y;
-    const double left = r_.left[i], change = *r_.next[i] - r_.a[i];
+    const double fraction = r_.fraction[i], change = *r_.next[i] - r_.a[i];
     y.theta[0] = Pack(r_.theta[i]);
-    y.omega[0] = Pack(r_.omega[i] * left);
+    y.omega[0] = Pack(r_.omega[i] * fraction);
     y.rx[0] = Pack(r_.rx[i]);
     y.ry[0] = Pack(r_.ry[i]);
-    const double push = r_.push[i] * left * left;
-    y.expand(Pack(r_.gravity[i] * left * left), Pack(push * r_.a[i]), Pack(push * change));
+    const double push = r_.push[i] * fraction * fraction;
+    y.expand(Pack(r_.gravity[i] * fraction * fraction), Pack(push * r_.a[i]), Pack(push * change));
     double lo = 0, hi = 1;
     for (int round = 0; round < 50; ++round) {
       const double middle = 0.5 * (lo + hi);
@@ -240,14 +240,15 @@ class RockPool : RockHops {
     }
     const Pack at(hi);
     const RockEnd end{y.at(y.omega, at), y.at(y.rx, at), y.at(y.ry, at), Pack(r_.a[i] + change * hi)};
-    const double left2 = left * left, left4 = left2 * left2;
-    r_.force2[i] = watch_force(y, Pack(r_.weight[i] * left2), Pack(r_.gravity[i] * left2), Pack(push), Pack(r_.a[i]),
-                               Pack(change), end, at, Pack(r_.force2[i] * left4), true)
+    const double fraction2 = fraction * fraction, fraction4 = fraction2 * fraction2;
+    r_.force2[i] = watch_force(y, Pack(r_.weight[i] * fraction2), Pack(r_.gravity[i] * fraction2), Pack(push),
+                               Pack(r_.a[i]), Pack(change), end, at, Pack(r_.force2[i] * fraction4), true)
                        .get(0) /
-                   left4;
+                   fraction4;
     r_.peak[i] = 0.5 * pi;
     ++lane.events;
-    const double intervals = knot(i) + 1 - left + left * hi, knots = (lane.after ? c.table->knots - 1 : 0) + intervals;
+    const double intervals = knot(i) + 1 - fraction + fraction * hi,
+                 knots = (lane.after ? c.table->knots - 1 : 0) + intervals;
     if (lane.after && c.table->step_s * intervals > c.free_vibration_s) return decline(i);
     finish(i, Outcome::overturned, c.table->step_s * knots, r_.side[i] * 0.5 * pi);
     refill(i);

@@ -22,7 +22,7 @@ class RockHops : public RockLanes {
     r_.theta[i] = 0;
     r_.omega[i] = lanes_[i].kept * omega;
     change_corners(i, omega);
-    if (r_.left[i] < 1e-12) {
+    if (r_.fraction[i] < 1e-12) {
       if (free_of(i) <= 1) return decline(i);
       to_next_knot(i);
     }
@@ -111,16 +111,16 @@ class RockHops : public RockLanes {
     const double h = c.table->step_s, omega = r_.omega[i], rotation = lane.hop_here * omega * omega;
     return row_is_over(rotation, c.rest_rotation, omega / h, larger(lane.left.kept, lane.right.kept), [&] {
       if (lane.after) return std::numeric_limits<double>::infinity();
-      const double time = h * r_.left[i];
-      const auto given = [&](const Ground& on) {
+      const double time = h * r_.fraction[i];
+      const auto given = [&](const CornerConstants& on) {
         const double now = on.pull(c.scale * r_.a[i], 0);
         return given_ahead(now, (on.pull(c.scale * *r_.next[i], 0) - now) / time, time);
       };
-      return smaller(given(grounds(i).left), given(grounds(i).right));
+      return smaller(given(corners(i).left), given(corners(i).right));
     });
   }
-  const Grounds& grounds(int i) {
-    std::optional<Grounds>& there = lanes_[i].grounds;
+  const BothCorners& corners(int i) {
+    std::optional<BothCorners>& there = lanes_[i].corners;
     return there ? *there : there.emplace(*lanes_[i].sample);
   }
 
@@ -134,7 +134,7 @@ class RockHops : public RockLanes {
       const double alpha = c.g * 0.5 * (c.left + c.right) / inertia, speed = magnitude(rate) / c.table->step_s;
       const double time =
           rests ? 0.0 : 2 * speed / alpha * (1 - pow_outside(lane.kept, hops_to_rest(i))) / (1 - lane.kept);
-      const double after = c.table->step_s * (knot(i) + 1 - r_.left[i]) + time;
+      const double after = c.table->step_s * (knot(i) + 1 - r_.fraction[i]) + time;
       if (after > c.free_vibration_s) return decline(i);
       finish(i, Outcome::moved, c.table->step_s * (c.table->knots - 1) + after, 0.0);
       return refill(i);
@@ -145,7 +145,7 @@ class RockHops : public RockLanes {
       stand_on(i, a * c.scale > 0 ? -1 : 1);
       return go_on(i);
     }
-    if (!leave_rest(i, knot(i), 1 - r_.left[i])) refill(i);
+    if (!leave_rest(i, knot(i), 1 - r_.fraction[i])) refill(i);
   }
 
   // As in dynamics/small_hops.cpp.
@@ -153,13 +153,13 @@ class RockHops : public RockLanes {
     const Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
     const double rate = magnitude(r_.omega[i]) / c.table->step_s, here = r_.a[i], side = r_.side[i];
-    const Ground &on = grounds(i).on(side), &other = grounds(i).on(-side);
+    const CornerConstants &on = corners(i).on(side), &other = corners(i).on(-side);
     r_.omega[i] = 0;
     feel_on_both(i);
     if (lane.after) return;
     const double first = 2 * rate / on.pull(c.scale * here, 0),
                  second = 2 * rate * on.kept / other.pull(c.scale * here, 0);
-    const double part = (first + second) / (1 - on.kept * other.kept) / (c.table->step_s * r_.left[i]);
+    const double part = (first + second) / (1 - on.kept * other.kept) / (c.table->step_s * r_.fraction[i]);
     if (!(part > 0 && part < 1)) return;
     r_.a[i] += (*r_.next[i] - here) * part;
     feel_on_both(i);
@@ -241,21 +241,21 @@ class RockHops : public RockLanes {
     Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
     const double h = c.table->step_s, rate = r_.omega[i] / h, square = rate * rate, a = c.scale * r_.a[i];
-    const double pull = grounds(i).on(r_.side[i]).pull(a, 0);
-    return square * square < limit2(i) * pull * pull && lane.grounds->bounds.fast * c.g * h * h < 1e-3 &&
+    const double pull = corners(i).on(r_.side[i]).pull(a, 0);
+    return square * square < limit2(i) * pull * pull && lane.corners->bounds.fast * c.g * h * h < 1e-3 &&
            magnitude(a) <= largest_push(i) && free_of(i) > 0;
   }
 
   // Four times the squared rotation up to which hops are small.
   double limit2(int i) const {
-    const double most = lanes_[i].grounds->bounds.limit2, peak2 = r_.peak[i] * r_.peak[i];
+    const double most = lanes_[i].corners->bounds.limit2, peak2 = r_.peak[i] * r_.peak[i];
     return 4 * (peak2 < most ? peak2 : most);
   }
 
   // Of the floor, so that small hops are no new peak of the acceleration and it tips the block nowhere.
   double largest_push(int i) const {
     const BatchCase& c = *lanes_[i].sample;
-    const HopBounds& b = lanes_[i].grounds->bounds;
+    const HopBounds& b = lanes_[i].corners->bounds;
     const double h2 = c.table->step_s * c.table->step_s, more = small_share * c.g;
     return smaller(b.unseen_push(b.fx + more, b.lift + more, r_.force2[i] / (h2 * h2)), b.tips);
   }
@@ -268,10 +268,10 @@ class RockHops : public RockLanes {
     rows.omega[k] = side * r_.omega[i];
     rows.side[k] = side;
     rows.a[k] = r_.a[i];
-    rows.left[k] = r_.left[i];
+    rows.fraction[k] = r_.fraction[i];
     rows.next[k] = r_.next[i];
     rows.stop[k] = r_.next[i] + free_of(i) - 1;
-    for (const int right : {0, 1}) rows.stand(right, k, right ? lane.grounds->right : lane.grounds->left, c.scale, h2);
+    for (const int right : {0, 1}) rows.stand(right, k, right ? lane.corners->right : lane.corners->left, c.scale, h2);
     rows.limit2[k] = limit2(i);
     rows.push[k] = largest_push(i) / magnitude(c.scale);
     rows.hops[k] = rows.impacts[k] = rows.ended[k] = 0;
@@ -283,7 +283,7 @@ class RockHops : public RockLanes {
     stand_on(i, rows.side[k] > 0 ? 1 : -1);
     const double side = r_.side[i], size = rows.theta[k];
     r_.next[i] = rows.next[k];
-    r_.left[i] = rows.left[k];
+    r_.fraction[i] = rows.fraction[k];
     r_.a[i] = rows.a[k];
     r_.theta[i] = side * size;
     r_.omega[i] = side * rows.omega[k];

@@ -1,4 +1,4 @@
-// The lives of the samples in the slots of a pool that rocks: from rest to rest, sample after sample.
+// The trajectories of the samples in the slots of a pool that rocks: from rest to rest, sample after sample.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/pack.hpp"
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
-#include "dynamics/pack/ground.hpp"
+#include "dynamics/pack/corner_constants.hpp"
 #include "dynamics/pack/outside.hpp"
 #include "dynamics/pack/rock_march.hpp"
 #include "dynamics/pack/search.hpp"
@@ -24,18 +24,18 @@ struct RockStates {
   double gravity[rock_slots], push[rock_slots];  // g h^2/J, scale h^2/J
   double weight[rock_slots];                     // scale h^2
   double a[rock_slots];                          // unit record, where the lane is
-  double left[rock_slots];                       // part of the interval that lies ahead
+  double fraction[rock_slots];                   // part of the interval that lies ahead
   double side[rock_slots];                       // +1 right corner, -1 left
   double peak[rock_slots], force2[rock_slots];   // of |theta|; of the squared acceleration
   const double* next[rock_slots];                // a at the end of the interval
 };
 
 // What a block needs that rocks in small hops.
-struct Grounds {
-  Ground left, right;
+struct BothCorners {
+  CornerConstants left, right;
   HopBounds bounds;
-  explicit Grounds(const BatchCase& c) : left(c, -1), right(c, 1), bounds(c, left, right) {}
-  const Ground& on(double side) const { return side > 0 ? right : left; }
+  explicit BothCorners(const BatchCase& c) : left(c, -1), right(c, 1), bounds(c, left, right) {}
+  const CornerConstants& on(double side) const { return side > 0 ? right : left; }
 };
 
 class RockLanes {
@@ -62,7 +62,7 @@ class RockLanes {
     double dying = 0;    // no row of hops dies out within `look` intervals that starts faster than this, per interval
     int restless = -1;   // up to this knot the floor pushes too hard for hops to die out
     bool after = false;  // the record is over
-    std::optional<Grounds> grounds = {};
+    std::optional<BothCorners> corners = {};
   };
 
   // Knot at which the lane's interval starts; after the record, counted from its end.
@@ -148,7 +148,7 @@ class RockLanes {
     r_.next[i] = t.acceleration.data() + m + 1;
     const double a = t.acceleration[static_cast<std::size_t>(m)];
     r_.a[i] = a + (*r_.next[i] - a) * done;
-    r_.left[i] = 1 - done;
+    r_.fraction[i] = 1 - done;
     const double f = r_.a[i] * r_.weight[i];
     if (f * f > r_.force2[i]) r_.force2[i] = f * f;
     ++lane.events;
@@ -220,7 +220,7 @@ class RockLanes {
     feel(i);  // with the last of the record
     lane.after = true;
     r_.a[i] = 0;
-    r_.left[i] = 1;
+    r_.fraction[i] = 1;
     r_.next[i] = still_ground + 1;
     go_on(i);
   }
@@ -255,7 +255,7 @@ class RockLanes {
     rows.push[k] = side * r_.push[i];
     rows.weight[k] = side * r_.weight[i];
     rows.a[k] = r_.a[i];
-    rows.left[k] = r_.left[i];
+    rows.fraction[k] = r_.fraction[i];
     rows.peak[k] = r_.peak[i];
     rows.force2[k] = r_.force2[i];
     rows.next[k] = r_.next[i];
@@ -268,7 +268,7 @@ class RockLanes {
     r_.rx[i] = side * rows.rx[k];
     r_.ry[i] = rows.ry[k];
     r_.a[i] = rows.a[k];
-    r_.left[i] = rows.left[k];
+    r_.fraction[i] = rows.fraction[k];
     r_.peak[i] = rows.peak[k];
     r_.force2[i] = rows.force2[k];
     r_.next[i] = rows.next[k];
@@ -276,7 +276,7 @@ class RockLanes {
 
   void to_next_knot(int i) {
     r_.a[i] = *r_.next[i]++;
-    r_.left[i] = 1;
+    r_.fraction[i] = 1;
   }
 
   static constexpr int look = 16;  // intervals

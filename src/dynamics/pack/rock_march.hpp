@@ -21,7 +21,7 @@ struct RockRows {
   alignas(64) double gravity[march_slots], push[march_slots];  // g h^2/J, scale h^2/J
   alignas(64) double weight[march_slots];                      // scale h^2
   alignas(64) double a[march_slots];                           // unit record, where the lane is
-  alignas(64) double left[march_slots];                        // part of the interval that lies ahead
+  alignas(64) double fraction[march_slots];                    // part of the interval that lies ahead
   alignas(64) double peak[march_slots], force2[march_slots];   // of theta; of the squared acceleration
   alignas(64) const double* next[march_slots];                 // a at the end of the interval
   alignas(64) const double* stop[march_slots];                 // the last such value
@@ -30,11 +30,11 @@ struct RockRows {
   void retire(int i) {
     omega[i] = gravity[i] = push[i] = weight[i] = a[i] = 0;
     theta[i] = 0.5;
-    left[i] = 1;
+    fraction[i] = 1;
     peak[i] = force2[i] = 1e300;
     next[i] = still_ground;
   }
-  auto all() { return std::array{theta, omega, rx, ry, gravity, push, weight, a, left, peak, force2}; }
+  auto all() { return std::array{theta, omega, rx, ry, gravity, push, weight, a, fraction, peak, force2}; }
 };
 
 class RockMarch : public LaneGroup<RockRows> {
@@ -46,7 +46,7 @@ class RockMarch : public LaneGroup<RockRows> {
   std::uint64_t march(std::uint64_t& falls) {
     falls_ = 0;
     const std::uint64_t apart = each_pack([this](int i, unsigned here) {
-      const bool whole = bits(load(r_.left + i) == Pack(1.0)) == (1U << pack_lanes) - 1;
+      const bool whole = bits(load(r_.fraction + i) == Pack(1.0)) == (1U << pack_lanes) - 1;
       return whole ? march<Step, true>(i, here) : march<Step, false>(i, here);
     });
     falls = falls_;
@@ -57,23 +57,23 @@ class RockMarch : public LaneGroup<RockRows> {
   // `whole`: no lane has a part of its interval behind it.
   template <class Step, bool whole>
   unsigned march(int i, unsigned here) {
-    const Pack one(1.0), zero(0.0), left = whole ? one : load(r_.left + i), left2 = left * left;
+    const Pack one(1.0), zero(0.0), fraction = whole ? one : load(r_.fraction + i), fraction2 = fraction * fraction;
     const auto scaled = [&](const double* row, const Pack& by) { return whole ? load(row + i) : load(row + i) * by; };
     Step y;
     y.theta[0] = load(r_.theta + i);
-    y.omega[0] = scaled(r_.omega, left);
+    y.omega[0] = scaled(r_.omega, fraction);
     y.rx[0] = load(r_.rx + i);
     y.ry[0] = load(r_.ry + i);
     const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), change = a_next - a;
-    const Pack gravity = scaled(r_.gravity, left2), push = scaled(r_.push, left2);
+    const Pack gravity = scaled(r_.gravity, fraction2), push = scaled(r_.push, fraction2);
     y.expand(gravity, push * a, push * change);
     const RockEnd end = y.end(a_next);
     const Pack peak = load(r_.peak + i);
     const PackMask falls = falls_all_along(y, end), stays = something_happens(y, end, peak, falls);
 
-    const Pack seen = load(r_.force2 + i), over = whole ? one : one / left, over2 = over * over;
-    const Pack most = watch_force(y, scaled(r_.weight, left2), gravity, push, a, change, end, one,
-                                  whole ? seen : seen * (left2 * left2), false);
+    const Pack seen = load(r_.force2 + i), over = whole ? one : one / fraction, over2 = over * over;
+    const Pack most = watch_force(y, scaled(r_.weight, fraction2), gravity, push, a, change, end, one,
+                                  whole ? seen : seen * (fraction2 * fraction2), false);
     const PackMask goes = ~stays;
     store_where(goes, r_.force2 + i, whole ? most : most * (over2 * over2));
     store_where(goes, r_.peak + i, xsimd::max(peak, end.theta));
@@ -82,7 +82,7 @@ class RockMarch : public LaneGroup<RockRows> {
     store_where(goes, r_.rx + i, end.rx);
     store_where(goes, r_.ry + i, end.ry);
     store_where(goes, r_.a + i, a_next);
-    if (!whole) store_where(goes, r_.left + i, one);
+    if (!whole) store_where(goes, r_.fraction + i, one);
     const unsigned apart = bits(stays) & here;
     advance(r_.next + i, here & ~apart);
     falls_ |= std::uint64_t{bits(falls & (end.theta <= zero)) & apart} << i;

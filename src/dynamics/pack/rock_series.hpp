@@ -64,10 +64,10 @@ struct Bracket {
 
   template <int M>
   [[gnu::always_inline]] void narrow() {
-    Pack value = c[M], slope(0.0), bend(0.0);  // bend: half the second derivative
+    Pack value = c[M], slope(0.0), half_curvature(0.0);  // half_curvature: half the second derivative
 #pragma GCC unroll 16
     for (int k = M - 1; k >= 0; --k) {
-      bend = bend * x + slope;
+      half_curvature = half_curvature * x + slope;
       slope = slope * x + value;
       value = value * x + c[k];
     }
@@ -75,12 +75,13 @@ struct Bracket {
     lo = choose(above, x, lo);
     hi = choose(above, hi, x);
     // Near a turning point that is no root, Halley's step leads to that point: there the bracket is halved.
-    const Pack square = slope * slope, curve = value * bend, halley = x - value * slope / (square - curve);
+    const Pack square = slope * slope, curve = value * half_curvature, halley = x - value * slope / (square - curve);
     const PackMask leads = (halley >= lo) & (halley <= hi) & (square > xsimd::abs(curve));
     const Pack next = choose(leads, halley, Pack(0.5) * (lo + hi));
-    // What is left after a step of Halley's is its third power by the square of bend over slope: round-off then.
+    // What is left after a step of Halley's is its third power by the square of half_curvature over slope: round-off then.
     const Pack step = xsimd::abs(next - x);
-    const PackMask settled = leads & (step <= Pack(1e-6)) & (xsimd::abs(bend) * step <= Pack(3e-5) * xsimd::abs(slope));
+    const PackMask settled =
+        leads & (step <= Pack(1e-6)) & (xsimd::abs(half_curvature) * step <= Pack(3e-5) * xsimd::abs(slope));
     x = choose(open, next, x);
     open = open & ~settled;
   }
@@ -127,10 +128,10 @@ Pack bracketed_root(const Pack* c, const Pack& sign, const Pack& lo, const Pack&
 
 // First zero on (0, 1] of the parabola from `start`, with `slope` there, to `end` at 1; the second where it starts at 0.
 inline Pack first_zero(const Pack& start, const Pack& slope, const Pack& end) {
-  const Pack zero(0.0), bend = end - start - slope;
-  const Pack root = xsimd::sqrt(xsimd::max(slope * slope - Pack(4.0) * bend * start, zero));
+  const Pack zero(0.0), half_curvature = end - start - slope;
+  const Pack root = xsimd::sqrt(xsimd::max(slope * slope - Pack(4.0) * half_curvature * start, zero));
   const PackMask rises = slope > zero;
-  return choose(rises, slope + root, Pack(2.0) * start) / choose(rises, Pack(-2.0) * bend, root - slope);
+  return choose(rises, slope + root, Pack(2.0) * start) / choose(rises, Pack(-2.0) * half_curvature, root - slope);
 }
 
 // Where the angular velocity, of one sign at the start and the other at the end, is zero: to about 1e-9, so that the
@@ -140,14 +141,14 @@ Pack turning_point(const Step& y, const Pack& omega_end) {
   const Pack one(1.0), zero(0.0), sense = choose(y.omega[0] > zero, one, zero - one);
   const Pack x = xsimd::min(first_zero(sense * y.omega[0], sense * y.omega[1], sense * omega_end), one);
   constexpr int order = Step::order;
-  Pack value = y.omega_term(order), slope(0.0), bend(0.0);
+  Pack value = y.omega_term(order), slope(0.0), half_curvature(0.0);
 #pragma GCC unroll 16
   for (int k = order - 1; k >= 0; --k) {
-    bend = bend * x + slope;
+    half_curvature = half_curvature * x + slope;
     slope = slope * x + value;
     value = value * x + y.omega_term(k);
   }
-  const Pack next = x - value * slope / (slope * slope - value * bend);
+  const Pack next = x - value * slope / (slope * slope - value * half_curvature);
   return xsimd::min(xsimd::max(next, zero), one);
 }
 
@@ -183,12 +184,12 @@ template <class Step, class Gravity, class Lift = Level>
              hy = less_at(end.rx * alpha + end.ry * omega2_end, lift, part);
   const Pack square_end = hx * hx + hy * hy;
   const Pack high = xsimd::max(seen, xsimd::max(square, square_end));
-  const Pack bend = (square_end - square - slope * part) / (part * part);
-  const PackMask tops =
-      (slope > zero) & (slope + two * bend * part < zero) & (square - slope * slope / (Pack(4.0) * bend) > high);
+  const Pack half_curvature = (square_end - square - slope * part) / (part * part);
+  const PackMask tops = (slope > zero) & (slope + two * half_curvature * part < zero) &
+                        (square - slope * slope / (Pack(4.0) * half_curvature) > high);
   const auto watched = [&](const Pack& most) { return always ? most : choose(near, most, seen); };
   if (!bits(tops)) return watched(high);
-  const Pack at = choose(tops, slope / (Pack(-2.0) * bend), part);
+  const Pack at = choose(tops, slope / (Pack(-2.0) * half_curvature), part);
   const Pack omega = y.omega_at(at), a_top = a + rate_a * at;
   Pack rx, ry;
   y.arm_at(at, rx, ry);

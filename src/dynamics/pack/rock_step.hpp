@@ -28,9 +28,9 @@ struct RockStep : Polynomials<Pack> {
     const Pack sx = a1 * rx[0], sy = a1 * ry[0], pull = gravity * ry[0] + a0 * rx[0], k = pull - w2;
     const Pack alpha = gravity * rx[0] - a0 * ry[0], alpha2 = alpha * alpha, spin = alpha * w, sxw = sx * w,
                syw = sy * w;
-    const Pack second = pull * w - sy, third = alpha * k + times(2, sxw), bend = sx - times(3, spin);  // bend: K'
+    const Pack second = pull * w - sy, third = alpha * k + times(2, sxw), k_rate = sx - times(3, spin);  // k_rate: K'
     const Pack fourth = times(3, alpha * (sx - spin)) + times(2, syw * w) + second * k;
-    const Pack by_second = sx + times(3, bend), by_third = by_second + bend, by_fourth = by_third + bend;
+    const Pack by_second = sx + times(3, k_rate), by_third = by_second + k_rate, by_fourth = by_third + k_rate;
     const Pack twist = alpha2 + second * w;  // of spin
     const Pack fifth = alpha * (times(7, syw) - times(3, alpha2)) - times(2, sxw * w2) + second * by_second + third * k;
     const Pack sixth = alpha * (times(7, sy * alpha) - times(13, sxw * w)) - times(2, syw * (w2 * w)) +

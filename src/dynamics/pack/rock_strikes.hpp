@@ -35,7 +35,7 @@ class RockStrikes : public LaneGroup<RockRows> {
  private:
   struct Fall {
     RockStep y;
-    Pack left, left2, gravity, push, a, change;
+    Pack fraction, fraction2, gravity, push, a, change;
   };
 
   template <int count>
@@ -54,14 +54,14 @@ class RockStrikes : public LaneGroup<RockRows> {
   }
 
   void fall(Fall& f, int i) const {
-    f.left = load(r_.left + i);
-    f.left2 = f.left * f.left;
-    f.gravity = load(r_.gravity + i) * f.left2;
-    f.push = load(r_.push + i) * f.left2;
+    f.fraction = load(r_.fraction + i);
+    f.fraction2 = f.fraction * f.fraction;
+    f.gravity = load(r_.gravity + i) * f.fraction2;
+    f.push = load(r_.push + i) * f.fraction2;
     f.a = load(r_.a + i);
     f.change = fetch(r_.next + i) - f.a;
     f.y.theta[0] = load(r_.theta + i);
-    f.y.omega[0] = load(r_.omega + i) * f.left;
+    f.y.omega[0] = load(r_.omega + i) * f.fraction;
     f.y.rx[0] = load(r_.rx + i);
     f.y.ry[0] = load(r_.ry + i);
     f.y.expand(f.gravity, f.push * f.a, f.push * f.change);
@@ -72,12 +72,13 @@ class RockStrikes : public LaneGroup<RockRows> {
     const Pack zero(0.0), one(1.0), arm = load(other.arm + i), height = load(other.height + i);
     RockEnd end{f.y.omega_at(part), zero, zero, f.a + f.change * part, zero};
     f.y.arm_at(part, end.rx, end.ry);
-    const Pack left4 = f.left2 * f.left2, weight = load(r_.weight + i), seen = load(r_.force2 + i);
+    const Pack fraction4 = f.fraction2 * f.fraction2, weight = load(r_.weight + i), seen = load(r_.force2 + i);
     const Pack force2 =
-        watch_force(f.y, weight * f.left2, f.gravity, f.push, f.a, f.change, end, part, seen * left4, true) / left4;
+        watch_force(f.y, weight * f.fraction2, f.gravity, f.push, f.a, f.change, end, part, seen * fraction4, true) /
+        fraction4;
 
-    const Pack falls = end.omega / f.left, omega = zero - load(other.kept + i) * falls, omega2 = omega * omega;
-    const Pack gravity = load(other.gravity + i), push = load(other.push + i), ahead = f.left - f.left * part;
+    const Pack falls = end.omega / f.fraction, omega = zero - load(other.kept + i) * falls, omega2 = omega * omega;
+    const Pack gravity = load(other.gravity + i), push = load(other.push + i), ahead = f.fraction - f.fraction * part;
     const Pack pull = arm * gravity + height * (push * end.a);
     const PackMask rests = omega2 < load(other.rests + i), dies = omega <= load(other.dying + i);
     const Pack peak = load(r_.peak + i), small2 = xsimd::min(load(other.small2 + i), peak * peak);
@@ -92,7 +93,7 @@ class RockStrikes : public LaneGroup<RockRows> {
     put(r_.push, push);
     put(r_.weight, zero - weight);
     put(r_.a, end.a);
-    put(r_.left, ahead);
+    put(r_.fraction, ahead);
     put(r_.force2, xsimd::max(seen, force2));
     store(struck.rates + i, falls);
     struck.all |= bits(clear) << i;

@@ -35,8 +35,8 @@ struct SlideRows {
   alignas(64) double known[slide_slots];                     // when it ends within that interval; else < 0
   // Where its end is searched from: knot, place in the row of heights, line.
   alignas(64) int from[slide_slots], place[slide_slots], height[slide_slots], drop[slide_slots];
-  alignas(64) int crossing[slide_slots], loud[slide_slots];  // the knots found
-  alignas(64) const double* stop[slide_slots];               // and those before them
+  alignas(64) int crossing[slide_slots], exceeding[slide_slots];  // the knots found
+  alignas(64) const double* stop[slide_slots];                    // and those before them
   alignas(64) const double* start[slide_slots];
   alignas(64) double a[slide_slots];  // the floor's acceleration where the block stopped last
   alignas(64) double u[slide_slots], path[slide_slots], peak[slide_slots];
@@ -68,7 +68,7 @@ class SlidePool {
       r_.heights_to_one[i] = r_.backwards[i] = 0;
       r_.m[i] = r_.tau[i] = r_.V[i] = r_.D[i] = r_.next[i] = r_.known[i] = 0;
       r_.a[i] = r_.u[i] = r_.path[i] = r_.peak[i] = r_.hardest[i] = r_.events[i] = 0;
-      r_.crossing[i] = r_.loud[i] = 1;
+      r_.crossing[i] = r_.exceeding[i] = 1;
       r_.stop[i] = r_.start[i] = still_knot;
     }
   }
@@ -161,8 +161,8 @@ class SlidePool {
       const Lane& lane = lanes_[i];
       if (!lane.sample) continue;
       const unsigned j = first_loud(lane.levels, lane.run_levels, lane.level, static_cast<unsigned>(r_.crossing[i]));
-      r_.loud[i] = static_cast<int>(j);
-      r_.start[i] = before(lane, r_.loud[i]);
+      r_.exceeding[i] = static_cast<int>(j);
+      r_.start[i] = before(lane, r_.exceeding[i]);
     }
   }
 
@@ -223,7 +223,7 @@ class SlidePool {
     const Pack one(1.0), zero(0.0), h = load(r_.step + first);
     const Pack gs = load(r_.gs + first), gk = load(r_.gk + first);
     const PackMask& pushed = last.pushed;
-    const Pack loud = load_whole(r_.loud + first), a_next = fetch(r_.start + first, table_columns);
+    const Pack exceeding = load_whole(r_.exceeding + first), a_next = fetch(r_.start + first, table_columns);
     const Within waited(r_.start + first), floor(pushed, stopped, waited);
     const PackMask named_for_nothing = !(last.on | pushed | (xsimd::abs(a_next) > gs));
     const PackMask none = last.on | named_for_nothing;
@@ -238,7 +238,7 @@ class SlidePool {
     const auto kept = [&](const double* row, const Pack& now) { return choose(last.on, load(row + first), now); };
     const Pack V = kept(r_.V, floor.velocity(tau)), D = kept(r_.D, floor.displacement(tau));
     const Pack way = kept(r_.sigma, sigma), begin = kept(r_.tau, tau),
-               m = kept(r_.m, choose(pushed, last.knot, loud) - one);
+               m = kept(r_.m, choose(pushed, last.knot, exceeding) - one);
     const Pack from = choose(last.on, last.knot + one, m + choose(brief, one, Pack(2.0)));
     store(r_.m + first, m);
     store(r_.tau + first, begin);
@@ -268,7 +268,7 @@ class SlidePool {
 
   // A lane at rest that found no push: from that knot on, if the record goes on.
   [[gnu::noinline]] void wait(int i) {
-    if (r_.loud[i] < lanes_[i].table->knots) return stand(i, r_.loud[i]);
+    if (r_.exceeding[i] < lanes_[i].table->knots) return stand(i, r_.exceeding[i]);
     finish_at_rest(i);
     take(i);
   }

@@ -92,7 +92,7 @@ class SlideRock : public SlideRockSliding {
   // ---- one corner
   template <int K, bool slips>
   void corner() {
-    const double hs = h_ * left_, hs2 = hs * hs;
+    const double hs = h_ * fraction_, hs2 = hs * hs;
     const Field next{next_floor(), Gravity::shaken ? next_gravity() : c_.g};
     CornerSeries<K> y;
     y.theta[0] = theta_;
@@ -214,9 +214,10 @@ class SlideRock : public SlideRockSliding {
     if (smaller(first, last) > 0.05 * c_.g) return x;
     const double middle = 0.5 * x, here = grip(y, middle, hs, next);
     if (here < 0) return middle;
-    const double bend = 2 * (first + last - 2 * here), slope = last - first - bend;  // of the parabola, in part/x
-    const double low = -0.5 * slope / bend;
-    if (!(bend > 0 && low > 0 && low < 1)) return x;
+    const double half_curvature = 2 * (first + last - 2 * here),
+                 slope = last - first - half_curvature;  // of the parabola, in part/x
+    const double low = -0.5 * slope / half_curvature;
+    if (!(half_curvature > 0 && low > 0 && low < 1)) return x;
     return grip(y, low * x, hs, next) < 0 ? low * x : x;
   }
 
@@ -295,9 +296,11 @@ class SlideRock : public SlideRockSliding {
       const double here = square(forces_at(y, middle, hs, next));
       force2_ = larger(force2_, here);
       // Top of the parabola through both ends and the point between.
-      const double left = (here - first) / middle, right = (last - here) / (x - middle), bend = (right - left) / x;
-      const double top = 0.5 * (middle - left / bend);
-      if (!(bend < 0) || !(top > 1e-6 * x && top < (1 - 1e-6) * x) || magnitude(top - middle) < 1e-4 * x) return;
+      const double left = (here - first) / middle, right = (last - here) / (x - middle),
+                   half_curvature = (right - left) / x;
+      const double top = 0.5 * (middle - left / half_curvature);
+      if (!(half_curvature < 0) || !(top > 1e-6 * x && top < (1 - 1e-6) * x) || magnitude(top - middle) < 1e-4 * x)
+        return;
       middle = top;
     }
   }

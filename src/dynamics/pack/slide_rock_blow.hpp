@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/batch.hpp"
-#include "dynamics/pack/ground.hpp"
+#include "dynamics/pack/corner_constants.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -16,7 +16,8 @@ struct Blow {
 };
 
 // The block, which rocked on `from` with the rate `omega` while its corner slipped with `w`, strikes with `to`.
-inline Blow coulomb_blow(const BatchCase& c, const Ground& from, const Ground& to, double omega, double w) {
+inline Blow coulomb_blow(const BatchCase& c, const CornerConstants& from, const CornerConstants& to, double omega,
+                         double w) {
   const double vx = w + c.h * omega, vy = from.arm * omega, way = to.arm > 0 ? 1 : -1;  // of the centre of mass
   Blow after{Blow::Ends::regular, (c.k2 * omega + c.h * vx + to.arm * vy) * to.per_inertia, 0, 0};
   const double px = c.h * after.omega - vx, py = to.arm * after.omega - vy;
@@ -41,7 +42,7 @@ inline Blow coulomb_blow(const BatchCase& c, const Ground& from, const Ground& t
 }
 
 // Does the corner that strikes stick, where the other one did not slip? Whatever the rate.
-inline bool blow_sticks(const BatchCase& c, const Ground& from, const Ground& to) {
+inline bool blow_sticks(const BatchCase& c, const CornerConstants& from, const CornerConstants& to) {
   const double rate = from.arm > 0 ? -1 : 1, after = from.kept * rate;
   return after != 0 && magnitude(c.h * (after - rate)) <= 0.999999 * c.mu_s * (to.arm * after - from.arm * rate);
 }

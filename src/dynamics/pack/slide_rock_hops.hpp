@@ -24,11 +24,11 @@ class SlideRockHops : public SlideRockLane {
     r.side[i] = side_;
     enter_floor(r, i);
     for (int k = 0; k < 2; ++k) {
-      const Ground& ground = ground_[k];
-      r.stand(k, i, ground, c_.scale, h2);
+      const CornerConstants& corner = corner_constants_[k];
+      r.stand(k, i, corner, c_.scale, h2);
       if constexpr (Gravity::shaken) {
-        const double weight = c_.vertical_scale * h2 * ground.per_inertia;
-        r.shakes.lift[k][i] = weight * magnitude(ground.arm);
+        const double weight = c_.vertical_scale * h2 * corner.per_inertia;
+        r.shakes.lift[k][i] = weight * magnitude(corner.arm);
         r.shakes.turn[k][i] = weight * c_.h;
       }
     }
@@ -47,8 +47,8 @@ class SlideRockHops : public SlideRockLane {
     if (events_ > most_events) declined_ = true;
     m_ += static_cast<int>(r.next[i] - entry_) / Gravity::stride;
     stand_at_knot();
-    left_ = r.left[i];
-    if (left_ < 1) {
+    fraction_ = r.fraction[i];
+    if (fraction_ < 1) {
       a_ = c_.scale * r.a[i];
       if constexpr (Gravity::shaken) g_ = c_.g + c_.vertical_scale * r.shakes.v[i];
     }
@@ -113,7 +113,7 @@ class SlideRockHops : public SlideRockLane {
   template <class Pull>
   double given_ahead(Pull&& pull) const {
     const Field next{next_floor(), next_gravity()};
-    const double time = m_ < last_ ? h_ * left_ : std::numeric_limits<double>::infinity();
+    const double time = m_ < last_ ? h_ * fraction_ : std::numeric_limits<double>::infinity();
     const auto given = [&](int corner) {
       const double now = pull(corner, field());
       return dynamics::given_ahead(now, (pull(corner, next) - now) / time, time);

@@ -5,7 +5,7 @@
 
 #include "base/units.hpp"
 #include "dynamics/batch.hpp"
-#include "dynamics/pack/ground.hpp"
+#include "dynamics/pack/corner_constants.hpp"
 #include "dynamics/pack/hop_rows.hpp"
 #include "dynamics/pack/outside.hpp"
 #include "dynamics/pack/search.hpp"
@@ -26,9 +26,10 @@ class SlideRockLane {
         shaken_(c.vertical_scale != 0),
         g_(c.g),
         half_base_(0.5 * (c.left + c.right)),
-        ground_{{c, -1}, {c, 1}},
-        bounds_(c, ground_[0], ground_[1]),
-        sticks_(!c.coulomb || (blow_sticks(c, ground_[0], ground_[1]) && blow_sticks(c, ground_[1], ground_[0]))) {}
+        corner_constants_{{c, -1}, {c, 1}},
+        bounds_(c, corner_constants_[0], corner_constants_[1]),
+        sticks_(!c.coulomb || (blow_sticks(c, corner_constants_[0], corner_constants_[1]) &&
+                               blow_sticks(c, corner_constants_[1], corner_constants_[0]))) {}
 
   bool declined() const { return declined_; }
   bool ended() const { return declined_ || ended_; }
@@ -42,7 +43,7 @@ class SlideRockLane {
            4;
   }
   // So short a rest of an interval, a difference, has seven digits: it is left to the lane alone, which goes on to the knot.
-  bool in_packs() const { return left_ > 1e-9 && (m_ < last_ || m_ < patience()); }
+  bool in_packs() const { return fraction_ > 1e-9 && (m_ < last_ || m_ < patience()); }
   bool marches() const { return mode_ == Mode::rock && in_packs(); }
   bool slips() const { return mode_ == Mode::slide_rock && in_packs(); }
 
@@ -50,8 +51,8 @@ class SlideRockLane {
   template <class Gravity>
   int enter(SlideRockRows<Gravity>& r, int i) {
     const double s = side_, h2 = h_ * h_;
-    const Ground& ground = on(side_);
-    const double per_inertia = h2 * ground.per_inertia;
+    const CornerConstants& corner = on(side_);
+    const double per_inertia = h2 * corner.per_inertia;
     r.theta[i] = s * theta_;
     r.omega[i] = s * omega_ * h_;
     r.rx[i] = s * rx_;
@@ -62,7 +63,7 @@ class SlideRockLane {
     r.gravity[i] = c_.g * per_inertia;
     r.push[i] = s * c_.scale * per_inertia;
     r.mu[i] = c_.mu_s;
-    const double alpha = (rx_ * g_ - ry_ * a_) * ground.per_inertia, omega2 = omega_ * omega_;
+    const double alpha = (rx_ * g_ - ry_ * a_) * corner.per_inertia, omega2 = omega_ * omega_;
     const double fx = ry_ * alpha - rx_ * omega2 + a_, lift = (g_ - c_.g) - rx_ * alpha - ry_ * omega2;
     r.grip[i] = (c_.mu_s * (c_.g + lift) - magnitude(fx)) * h2;
     r.square[i] = (fx * fx + lift * lift) * (h2 * h2);
@@ -72,13 +73,13 @@ class SlideRockLane {
     r.turned[i] = peak_rotation_;
     r.look[i] = smaller(peak_rotation_, std::sqrt(2 * room_ / half_base_));
     r.half_base[i] = half_base_;
-    r.bend0[i] = ground.bend0;
-    r.bend1[i] = ground.bend1;
-    r.bend2[i] = ground.bend2;
+    r.curvature0[i] = corner.curvature0;
+    r.curvature1[i] = corner.curvature1;
+    r.curvature2[i] = corner.curvature2;
     if constexpr (Gravity::shaken) {
       r.shakes.weight[i] = c_.vertical_scale * h2;
-      r.shakes.per_inertia[i] = ground.per_inertia;
-      r.shakes.bend[i] = ground.lift_bend;
+      r.shakes.per_inertia[i] = corner.per_inertia;
+      r.shakes.curvature[i] = corner.lift_curvature;
     }
     return free;
   }
@@ -111,15 +112,15 @@ class SlideRockLane {
   // The block in lane i of the rows is about to strike the floor as lane l of a pack.
   template <class Gravity>
   void come_down(const SlideRockRows<Gravity>& r, int i, StrikeRows& k, int l) {
-    const Ground &from = on(side_), &to = on(-side_);
+    const CornerConstants &from = on(side_), &to = on(-side_);
     const double h2 = h_ * h_, per_inertia = h2 * to.per_inertia;
     see_room(r, i);
     see_slip(xi_);
     k.gravity[l] = c_.g * per_inertia;
     k.push[l] = -side_ * c_.scale * per_inertia;
-    k.bend0[l] = to.bend0;
-    k.bend1[l] = to.bend1;
-    k.bend2[l] = to.bend2;
+    k.curvature0[l] = to.curvature0;
+    k.curvature1[l] = to.curvature1;
+    k.curvature2[l] = to.curvature2;
     k.arm[l] = magnitude(to.arm);
     k.height[l] = c_.h;
     k.kept[l] = from.kept;
@@ -157,8 +158,8 @@ class SlideRockLane {
     peak_rotation_ = larger(peak_rotation_, r.turned[i]);
     see_room(r, i);
     leave_rows(r, i);
-    if (in_between_ && r.left[i] < 1) {
-      left_ = r.left[i];
+    if (in_between_ && r.fraction[i] < 1) {
+      fraction_ = r.fraction[i];
       a_ = c_.scale * r.a[i];
     }
     in_between_ = false;
@@ -198,11 +199,11 @@ class SlideRockLane {
     const double* record = stride == 1 ? t_.acceleration.data() : t_.both.data();
     const double* row = over ? still_ground : record + stride * m_;
     const int free = over ? patience() - m_ : last_ - m_;
-    r.a[i] = left_ == 1 ? *row : a_ / c_.scale;
-    r.left[i] = left_;
+    r.a[i] = fraction_ == 1 ? *row : a_ / c_.scale;
+    r.fraction[i] = fraction_;
     r.next[i] = entry_ = row + stride;
     r.stop[i] = row + stride * free;
-    if constexpr (Rows::Gravity::shaken) r.shakes.v[i] = left_ == 1 ? row[1] : (g_ - c_.g) / c_.vertical_scale;
+    if constexpr (Rows::Gravity::shaken) r.shakes.v[i] = fraction_ == 1 ? row[1] : (g_ - c_.g) / c_.vertical_scale;
     return free;
   }
   template <class Rows>
@@ -256,9 +257,9 @@ class SlideRockLane {
     if (!shaken_ || m > last_) return c_.g;
     return c_.g - magnitude(c_.vertical_scale) * t_.later_vertical_peak[static_cast<std::size_t>(m / table_run)];
   }
-  double now() const { return h_ * (m_ + 1 - left_); }
+  double now() const { return h_ * (m_ + 1 - fraction_); }
   void stand_at_knot() {
-    left_ = 1;
+    fraction_ = 1;
     a_ = m_ < last_ ? floor_at(m_) : 0.0;
     if (shaken_) g_ = m_ < last_ ? gravity_at(m_) : c_.g;
   }
@@ -270,14 +271,14 @@ class SlideRockLane {
   // Forward by a part x of what is left of the interval. A rest of 1e-12 of it is the next knot: at 100 intervals a second that misses 1e-14 s,
   // to which events are located.
   void forward(double x) {
-    if (x >= 1 || left_ * (1 - x) < 1e-12) return next_knot();
+    if (x >= 1 || fraction_ * (1 - x) < 1e-12) return next_knot();
     a_ += (next_floor() - a_) * x;
     if (shaken_) g_ += (next_gravity() - g_) * x;
-    left_ -= left_ * x;
+    fraction_ -= fraction_ * x;
   }
 
   // ---- limits
-  const Ground& on(int side) const { return ground_[side > 0]; }
+  const CornerConstants& on(int side) const { return corner_constants_[side > 0]; }
   double arm(int side) const { return on(side).arm; }
   double tips_at(double a, double g) const { return (a > 0 ? c_.left : c_.right) / c_.h * g; }
   double slips_at(double g) const { return c_.mu_s * g; }
@@ -348,12 +349,12 @@ class SlideRockLane {
   bool shaken_;  // vertically
   double g_;     // effective gravity now
   double half_base_;
-  Ground ground_[2];  // on the left corner, on the right one
+  CornerConstants corner_constants_[2];  // on the left corner, on the right one
   HopBounds bounds_;
   bool sticks_;  // impacts of a corner that sticks make none slip
   Mode mode_ = Mode::rest;
   int m_ = 0, side_ = 0, sigma_ = 0;
-  double left_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now
+  double fraction_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now
   double theta_ = 0, omega_ = 0, rx_ = 0, ry_ = 0, xi_ = 0, w_ = 0;
   double peak_slip_ = 0, peak_rotation_ = 0, force2_ = 0, path_ = 0, end_ = 0;
   double room_ = 0;     // peak slip less s xi, when it entered a pack

@@ -39,7 +39,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     for (int i = 0; i < count(); i += pack_lanes) {
       const int used = count() - i;
       const unsigned here = used < pack_lanes ? (1U << used) - 1 : (1U << pack_lanes) - 1;
-      const bool whole = !bits(load(r_.left + i) != one);
+      const bool whole = !bits(load(r_.fraction + i) != one);
       Apart& lanes = apart[i / pack_lanes];
       lanes = whole ? march<true>(i, here) : march<false>(i, here);
       strikes += __builtin_popcount(lanes.strikes);
@@ -69,14 +69,15 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   // out, stand on the other corner then, at the knot ahead unless something more happens before.
   void strike(Strikes& s, unsigned here) {
     StrikeRows& k = s.rows;
-    const Pack zero(0.0), one(1.0), left = load(r_.left), a = load(r_.a), a_next = fetch(r_.next), change = a_next - a;
+    const Pack zero(0.0), one(1.0), fraction = load(r_.fraction), a = load(r_.a), a_next = fetch(r_.next),
+                                    change = a_next - a;
     RockSeries<N> y;
-    expand<false>(y, 0, left, load(r_.omega), Interval(r_.shakes, 0, r_.next).per_inertia(load(r_.gravity)),
+    expand<false>(y, 0, fraction, load(r_.omega), Interval(r_.shakes, 0, r_.next).per_inertia(load(r_.gravity)),
                   load(r_.push), a, change);
     const Pack end = y.sum(y.theta), guess = first_zero(y.theta[0], y.omega[0], end);
     const Pack part = bracketed_root<N + 1>(y.theta, one, zero, one, guess, end <= zero);
-    const Pack falls = y.at(y.omega, part) / left, omega = zero - load(k.kept) * falls;
-    const Pack ahead = left - left * part, now = a + change * part;
+    const Pack falls = y.at(y.omega, part) / fraction, omega = zero - load(k.kept) * falls;
+    const Pack ahead = fraction - fraction * part, now = a + change * part;
     // A block that rises first falls all the while.
     const Pack bow = Pack(2.0) * xsimd::abs(y.omega[2]) + Pack(6.0) * xsimd::abs(y.omega[3]);
     const PackMask rises = y.omega[0] > zero, once = (y.omega[0] < zero) | (y.omega[1] + bow < zero);
@@ -126,7 +127,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     store(r_.rx, zero - arm);
     store(r_.ry, height);
     store(r_.a, a);
-    store(r_.left, ahead);
+    store(r_.fraction, ahead);
     store(r_.grip, grip);
     store(r_.square, fx * fx + lift * lift);
     store(r_.gravity, gravity);
@@ -134,21 +135,21 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     store(r_.weight, weight);
     store(r_.room, room);
     store(r_.look, xsimd::min(turned, xsimd::sqrt(two * room / base)));
-    store(r_.bend0, load(k.bend0));
-    store(r_.bend1, load(k.bend1));
-    store(r_.bend2, load(k.bend2));
+    store(r_.curvature0, load(k.curvature0));
+    store(r_.curvature1, load(k.curvature1));
+    store(r_.curvature2, load(k.curvature2));
     return rocks;
   }
 
   template <bool Whole>
   Apart march(int i, unsigned here) {
-    const Pack zero(0.0), one(1.0), left = Whole ? one : load(r_.left + i);
+    const Pack zero(0.0), one(1.0), fraction = Whole ? one : load(r_.fraction + i);
     Step y;
     const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), change = a_next - a;
     const Pack push = load(r_.push + i), gravity = load(r_.gravity + i), omega0 = load(r_.omega + i);
     const Interval shakes(r_.shakes, i, r_.next + i);
     const auto field = shakes.per_inertia(gravity);
-    expand<Whole>(y, i, left, omega0, field, push, a, change);
+    expand<Whole>(y, i, fraction, omega0, field, push, a, change);
     RockEnd end = y.end(a_next);
     const Pack theta = end.theta, rx = end.rx, ry = end.ry;
     Pack omega = end.omega;
@@ -161,28 +162,29 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack turning = start * omega, twice = start * rises_by;
     const PackMask wavers = (turning >= zero) & (twice <= zero) & matters;
     const Pack omega1 = omega;
-    if constexpr (!Whole) omega = omega * (one / left);
+    if constexpr (!Whole) omega = omega * (one / fraction);
 
     const Pack weight_g = load(r_.weight_g + i), weight = load(r_.weight + i);
     const Pack alpha = rx * at_end(field) - ry * (push * a_next), omega2 = omega * omega;
     const Pack fx = ry * alpha - rx * omega2 + weight * a_next, lift = shakes.lifted(zero) - rx * alpha - ry * omega2;
     const Pack grip0 = load(r_.grip + i), grip = load(r_.mu + i) * (weight_g + lift) - xsimd::abs(fx);
     const Pack square0 = load(r_.square + i), square = fx * fx + lift * lift;
-    const Pack bend =
-        load(r_.bend0 + i) + (shakes.bent(load(r_.bend1 + i) * xsimd::abs(change)) + load(r_.bend2 + i) * rate) * rate;
-    const Pack ends = xsimd::max(square0, square), bend2 = bend * bend;
-    const Pack most = ends * Pack(1 + 1.0 / 256) + Pack(257.0) * bend2;
+    const Pack curvature =
+        load(r_.curvature0 + i) +
+        (shakes.curvature_with(load(r_.curvature1 + i) * xsimd::abs(change)) + load(r_.curvature2 + i) * rate) * rate;
+    const Pack ends = xsimd::max(square0, square), curvature2 = curvature * curvature;
+    const Pack most = ends * Pack(1 + 1.0 / 256) + Pack(257.0) * curvature2;
     const Pack seen = load(r_.seen + i);
     // Nothing but an impact.
-    const PackMask sure =
-        (xsimd::min(grip0, grip) > bend) & (theta < Pack(1.57)) & (xsimd::abs(y.last()) <= Pack(neglected)) & ~wavers;
+    const PackMask sure = (xsimd::min(grip0, grip) > curvature) & (theta < Pack(1.57)) &
+                          (xsimd::abs(y.last()) <= Pack(neglected)) & ~wavers;
     PackMask goes = sure & (theta > zero);
     if (const PackMask about = goes & matters & (turning < zero); bits(about)) goes = goes & ~turn(y, i, omega1, about);
-    // No top within where the force rises or falls all through: it leaves its chord by 4 bend x (1 - x) at most.
+    // No top within where the force rises or falls all through: it leaves its chord by 4 curvature x (1 - x) at most.
     const Pack rises = square - square0;
-    const PackMask bows = goes & (most > seen) & (rises * rises <= Pack(64.0) * (bend2 * ends));
+    const PackMask bows = goes & (most > seen) & (rises * rises <= Pack(64.0) * (curvature2 * ends));
     store_where(goes, r_.seen + i, xsimd::max(seen, ends));
-    if (bits(bows)) watch<Whole>(y, i, left, {omega, rx, ry, a_next}, bows, shakes);
+    if (bits(bows)) watch<Whole>(y, i, fraction, {omega, rx, ry, a_next}, bows, shakes);
 
     store_where(goes, r_.theta + i, theta);
     store_where(goes, r_.omega + i, omega);
@@ -192,7 +194,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     shakes.keep(r_.shakes, i, ~goes);
     store_where(goes, r_.grip + i, grip);
     store_where(goes, r_.square + i, square);
-    if constexpr (!Whole) store_where(goes, r_.left + i, one);
+    if constexpr (!Whole) store_where(goes, r_.fraction + i, one);
     const unsigned on = bits(goes),
                    strikes = bits(sure & (theta <= zero) & (most <= seen) & (omega < zero) & (omega0 != zero));
     advance(r_.next + i, here & on, Gravity::stride);
@@ -200,7 +202,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   }
 
   template <bool Whole, class Series, class Field>
-  [[gnu::always_inline]] void expand(Series& y, int i, const Pack& left, const Pack& omega, const Field& gravity,
+  [[gnu::always_inline]] void expand(Series& y, int i, const Pack& fraction, const Pack& omega, const Field& gravity,
                                      const Pack& push, const Pack& a, const Pack& change) const {
     y.theta[0] = load(r_.theta + i);
     y.rx[0] = load(r_.rx + i);
@@ -209,9 +211,9 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
       y.omega[0] = omega;
       y.expand(gravity, push * a, push * change);
     } else {
-      const Pack left2 = left * left, pushed = push * left2;
-      y.omega[0] = omega * left;
-      y.expand(gravity * left2, pushed * a, pushed * change);
+      const Pack fraction2 = fraction * fraction, pushed = push * fraction2;
+      y.omega[0] = omega * fraction;
+      y.expand(gravity * fraction2, pushed * a, pushed * change);
     }
   }
 
@@ -232,14 +234,15 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
 
   // The squared acceleration may have a new peak.
   template <bool Whole>
-  void watch(const Step& y, int i, const Pack& left, const RockEnd& end, const PackMask& feels,
+  void watch(const Step& y, int i, const Pack& fraction, const RockEnd& end, const PackMask& feels,
              const Interval& shakes) {
-    const Pack seen = load(r_.seen + i), a = load(r_.a + i), left2 = left * left, left4 = left2 * left2;
+    const Pack seen = load(r_.seen + i), a = load(r_.a + i), fraction2 = fraction * fraction,
+               left4 = fraction2 * fraction2;
     RockEnd there = end;
-    there.omega = end.omega * left;
-    const Pack top = watch_force(y, load(r_.weight + i) * left2, shakes.per_inertia(load(r_.gravity + i)) * left2,
-                                 load(r_.push + i) * left2, a, end.a - a, there, Pack(1.0), seen * left4, true,
-                                 shakes.lift() * left2);
+    there.omega = end.omega * fraction;
+    const Pack top = watch_force(y, load(r_.weight + i) * fraction2,
+                                 shakes.per_inertia(load(r_.gravity + i)) * fraction2, load(r_.push + i) * fraction2, a,
+                                 end.a - a, there, Pack(1.0), seen * left4, true, shakes.lift() * fraction2);
     store(r_.seen + i, choose(feels, Whole ? top : top / left4, seen));
   }
 };

@@ -14,7 +14,7 @@ struct SlideRockRows {
   using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double a[march_slots];                              // unit record, at the knot
-  alignas(64) double left[march_slots];                           // part of the interval that lies ahead
+  alignas(64) double fraction[march_slots];                       // part of the interval that lies ahead
   alignas(64) double grip[march_slots], square[march_slots];      // mu_s f_y - |f_x|, squared acceleration, there
   alignas(64) double gravity[march_slots], push[march_slots];     // g h^2/J, scale h^2/J
   alignas(64) double weight[march_slots], weight_g[march_slots];  // scale h^2, g h^2
@@ -23,8 +23,8 @@ struct SlideRockRows {
   alignas(64) double seen[march_slots];                           // largest squared acceleration so far
   alignas(64) double turned[march_slots], room[march_slots];      // largest rotation; slip less s xi
   alignas(64) double half_base[march_slots];
-  alignas(64) double bend0[march_slots], bend1[march_slots],
-      bend2[march_slots];                       // bound of what forces do within an interval
+  alignas(64) double curvature0[march_slots], curvature1[march_slots],
+      curvature2[march_slots];                  // bound of what forces do within an interval
   alignas(64) const double* next[march_slots];  // a at the end of the interval
   const double* stop[march_slots];              // the last such value
   typename Gravity::Rows shakes;
@@ -33,12 +33,13 @@ struct SlideRockRows {
   void retire(int i) {
     theta[i] = 0.5;
     omega[i] = 0;
-    left[i] = 1;
+    fraction[i] = 1;
     look[i] = seen[i] = 1e300;
   }
   [[gnu::always_inline]] auto all() {
-    return std::array{theta,    omega, rx,   ry,   a,     left,  grip,  square, gravity, push,     weight,
-                      weight_g, mu,    look, seen, bend0, bend1, bend2, turned, room,    half_base};
+    return std::array{theta,  omega,      rx,         ry,         a,        fraction, grip,
+                      square, gravity,    push,       weight,     weight_g, mu,       look,
+                      seen,   curvature0, curvature1, curvature2, turned,   room,     half_base};
   }
 };
 
@@ -48,7 +49,7 @@ struct SlipRows {
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double xi[march_slots], w[march_slots];             // of the corner
   alignas(64) double a[march_slots];                              // unit record, at the knot
-  alignas(64) double left[march_slots];                           // part of the interval that lies ahead
+  alignas(64) double fraction[march_slots];                       // part of the interval that lies ahead
   alignas(64) double weight[march_slots], weight_g[march_slots];  // scale h^2, g h^2
   alignas(64) double k2[march_slots], size[march_slots];          // gyration radius squared, height of the centre
   alignas(64) double friction[march_slots], sigma[march_slots];   // sigma mu_k; direction of the slip
@@ -62,8 +63,8 @@ struct SlipRows {
 
   void retire(int i) { seen[i] = 1e300; }
   [[gnu::always_inline]] auto all() {
-    return std::array{theta, omega, rx,       ry,    xi,        w,       a,       left, weight, weight_g,
-                      k2,    size,  friction, sigma, half_base, lever_x, lever_y, look, peak,   seen};
+    return std::array{theta, omega, rx,       ry,    xi,        w,       a,       fraction, weight, weight_g,
+                      k2,    size,  friction, sigma, half_base, lever_x, lever_y, look,     peak,   seen};
   }
 };
 
@@ -73,7 +74,7 @@ struct FlatRows {
   using Gravity = Steady;
   alignas(64) double xi[march_slots], w[march_slots];
   alignas(64) double a[march_slots];                              // unit record, at the knot
-  alignas(64) double left[march_slots];                           // part of the interval that lies ahead
+  alignas(64) double fraction[march_slots];                       // part of the interval that lies ahead
   alignas(64) double weight[march_slots], weight_g[march_slots];  // scale h^2, g h^2
   alignas(64) double size[march_slots];                           // height of the centre
   alignas(64) double friction[march_slots];                       // sigma mu_k
@@ -86,7 +87,7 @@ struct FlatRows {
 
   void retire(int i) { seen[i] = 1e300; }
   [[gnu::always_inline]] auto all() {
-    return std::array{xi, w, a, left, weight, weight_g, size, friction, sigma, tips, peak, seen};
+    return std::array{xi, w, a, fraction, weight, weight_g, size, friction, sigma, tips, peak, seen};
   }
 };
 

@@ -34,21 +34,22 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
 
   // The blocks from lane i on go to the end of their slips.
   void finish(int i, unsigned here, SlipEnds& ends) {
-    const Pack zero(0.0), one(1.0), two(2.0), left = load(r_.left + i), sigma = load(r_.sigma + i);
+    const Pack zero(0.0), one(1.0), two(2.0), fraction = load(r_.fraction + i), sigma = load(r_.sigma + i);
     FlatSeries<N, Pack> y;
     typename Friction::template Factor<N> factor(r_.law, i);
-    const Pack friction = expand(y, factor, i, left, load(r_.a + i), fetch(r_.next + i));
+    const Pack friction = expand(y, factor, i, fraction, load(r_.a + i), fetch(r_.next + i));
     const Pack w = y.sum(y.w), guess = first_zero(sigma * y.w[0], sigma * y.w[1], sigma * w);
     const PackMask stops = sigma * w <= zero;
     const PackMask slows = sigma * y.w[1] + two * xsimd::abs(y.w[2]) + Pack(6.0) * xsimd::abs(y.w[3]) < zero;
     const Pack x = bracketed_root<N + 1>(y.w, sigma, zero, one, guess, stops);
-    const Pack most = xsimd::max(factor.first(), factor.at(x)), force = friction * most, left2 = left * left;
-    const PackMask found = stops & slows & (sigma * y.w[0] > zero) & (x > zero) & settled(y, i, left) &
-                           (most + bend(factor) < load(r_.tips + i));
+    const Pack most = xsimd::max(factor.first(), factor.at(x)), force = friction * most,
+               fraction2 = fraction * fraction;
+    const PackMask found = stops & slows & (sigma * y.w[0] > zero) & (x > zero) & settled(y, i, fraction) &
+                           (most + curvature(factor) < load(r_.tips + i));
     const Pack xi = y.at(y.xi, x), seen = load(r_.seen + i), peak = load(r_.peak + i);
     store_where(found, r_.xi + i, xi);
     store_where(found, r_.w + i, zero);
-    store_where(found, r_.seen + i, xsimd::max(seen, force * force / (left2 * left2)));
+    store_where(found, r_.seen + i, xsimd::max(seen, force * force / (fraction2 * fraction2)));
     store_where(found, r_.peak + i, xsimd::max(peak, xsimd::abs(xi)));
     store(ends.parts, x);
     ends.found = bits(found) & here;
@@ -58,21 +59,21 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
  private:
   // The friction of Coulomb's law, in the units of the series.
   template <class Factor>
-  [[gnu::always_inline]] Pack expand(FlatSeries<N, Pack>& y, Factor& factor, int i, const Pack& left, const Pack& a,
+  [[gnu::always_inline]] Pack expand(FlatSeries<N, Pack>& y, Factor& factor, int i, const Pack& fraction, const Pack& a,
                                      const Pack& a_next) const {
-    const Pack left2 = left * left, weight = load(r_.weight + i) * left2;
-    const Pack friction = load(r_.friction + i) * (load(r_.weight_g + i) * left2);
+    const Pack fraction2 = fraction * fraction, weight = load(r_.weight + i) * fraction2;
+    const Pack friction = load(r_.friction + i) * (load(r_.weight_g + i) * fraction2);
     y.xi[0] = load(r_.xi + i);
-    y.w[0] = load(r_.w + i) * left;
-    y.slide(friction, weight * a, weight * (a_next - a), r_.law.to_speed(i, load(r_.sigma + i), left), factor);
+    y.w[0] = load(r_.w + i) * fraction;
+    y.slide(friction, weight * a, weight * (a_next - a), r_.law.to_speed(i, load(r_.sigma + i), fraction), factor);
     return friction;
   }
-  PackMask settled(const FlatSeries<N, Pack>& y, int i, const Pack& left) const {
-    return xsimd::abs(y.w[N + 1]) < Pack(neglected_by_laws) * load(r_.size + i) * left;
+  PackMask settled(const FlatSeries<N, Pack>& y, int i, const Pack& fraction) const {
+    return xsimd::abs(y.w[N + 1]) < Pack(neglected_by_laws) * load(r_.size + i) * fraction;
   }
   // What the factor leaves its chord by, at most.
   template <class Factor>
-  static Pack bend(const Factor& factor) {
+  static Pack curvature(const Factor& factor) {
     Pack sum = xsimd::abs(factor.factor()[2]);
 #pragma GCC unroll 16
     for (int k = 3; k <= N; ++k) sum = sum + xsimd::abs(factor.factor()[k]);
@@ -80,12 +81,13 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
   }
 
   unsigned march(int i, unsigned here) {
-    const Pack zero(0.0), one(1.0), left = load(r_.left + i), left2 = left * left, per_left = one / left;
+    const Pack zero(0.0), one(1.0), fraction = load(r_.fraction + i), fraction2 = fraction * fraction,
+                                    per_fraction = one / fraction;
     const Pack a = load(r_.a + i), a_next = fetch(r_.next + i);
     const Pack sigma = load(r_.sigma + i);
     FlatSeries<N, Pack> y;
     typename Friction::template Factor<N> factor(r_.law, i);
-    const Pack friction = expand(y, factor, i, left, a, a_next);
+    const Pack friction = expand(y, factor, i, fraction, a, a_next);
     const Pack xi = y.sum(y.xi), w = y.sum(y.w), first = factor.first(), last = factor.last();
 
     Pack bow(0.0);
@@ -93,20 +95,20 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     for (int k = 3; k <= N; ++k) bow = bow + xsimd::abs(y.w[k]);
     const Pack seen = load(r_.seen + i), peak = load(r_.peak + i);
     const Pack slower = xsimd::min(sigma * y.w[0], sigma * w), most = xsimd::max(first, last);
-    const Pack force = friction * most, square = force * force / (left2 * left2);
+    const Pack force = friction * most, square = force * force / (fraction2 * fraction2);
     const Pack square_term = xsimd::abs(y.w[2]);  // which leaves its chord by a quarter
     const PackMask starts = (sigma * y.w[0] >= zero) & (sigma * y.w[1] > square_term + bow);
     const PackMask stops = ~((slower > Pack(0.25) * square_term + bow) | starts);
-    const PackMask tips = ~(most + bend(factor) < load(r_.tips + i));
+    const PackMask tips = ~(most + curvature(factor) < load(r_.tips + i));
     const PackMask turns = (square * Pack(1.1) > seen) & ~(xsimd::abs(y.w[1]) > Pack(2.0) * (square_term + bow));
-    const PackMask settles = settled(y, i, left), stays = stops | tips | turns | ~settles;
+    const PackMask settles = settled(y, i, fraction), stays = stops | tips | turns | ~settles;
 
     store_where(~stays, r_.xi + i, xi);
-    store_where(~stays, r_.w + i, w * per_left);
+    store_where(~stays, r_.w + i, w * per_fraction);
     store_where(~stays, r_.seen + i, xsimd::max(seen, square));
     store_where(~stays, r_.peak + i, xsimd::max(peak, xsimd::abs(xi)));
     store_where(~stays, r_.a + i, a_next);
-    store_where(~stays, r_.left + i, one);
+    store_where(~stays, r_.fraction + i, one);
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all);
     ends_ |= static_cast<std::uint64_t>(all & bits(settles & (sigma * w <= zero))) << i;

@@ -5,17 +5,17 @@
 
 #include "dynamics/pack/flat_series.hpp"
 #include "dynamics/pack/friction.hpp"
-#include "dynamics/pack/slide_rock_life.hpp"
+#include "dynamics/pack/slide_rock_trajectory.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
 constexpr int slide_order = 8;
 
-class SlideRockSliding : public SlideRockLife {
+class SlideRockSliding : public SlideRockTrajectory {
  public:
-  using SlideRockLife::enter;
-  using SlideRockLife::leave;
+  using SlideRockTrajectory::enter;
+  using SlideRockTrajectory::leave;
   bool slides() const { return mode_ == Mode::slide && c_.law && in_packs(); }
 
   // F above which the slip tips the block over the corner ahead.
@@ -50,7 +50,7 @@ class SlideRockSliding : public SlideRockLife {
   }
 
  protected:
-  using SlideRockLife::SlideRockLife;
+  using SlideRockTrajectory::SlideRockTrajectory;
 
   void slide() {
     if (c_.law)
@@ -64,7 +64,7 @@ class SlideRockSliding : public SlideRockLife {
 
   void slide_by_law() {
     constexpr int N = slide_order;
-    const double hs = h_ * left_, hs2 = hs * hs, a1 = next_floor();
+    const double hs = h_ * fraction_, hs2 = hs * hs, a1 = next_floor();
     FlatSeries<N> y;
     OwnFactor<N> factor(*c_.law, {*c_.law});
     y.xi[0] = xi_;

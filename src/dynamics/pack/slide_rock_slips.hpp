@@ -97,17 +97,17 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   struct Step {
     const SlipRows<Gravity, Friction>& r;
     const int i;
-    const Pack left, left2, omega0, w0, a, a_next, weight_g, k2, friction, sigma;
+    const Pack fraction, fraction2, omega0, w0, a, a_next, weight_g, k2, friction, sigma;
     const typename Gravity::Interval shakes;
     typename Friction::template Factor<N> factor;
     CornerSeries<N, Pack> y;
-    decltype(shakes.gravity(weight_g) * left2) field;
+    decltype(shakes.gravity(weight_g) * fraction2) field;
 
     [[gnu::always_inline]] Step(const SlipRows<Gravity, Friction>& rows, int lane)
         : r(rows),
           i(lane),
-          left(load(r.left + i)),
-          left2(left * left),
+          fraction(load(r.fraction + i)),
+          fraction2(fraction * fraction),
           omega0(load(r.omega + i)),
           w0(load(r.w + i)),
           a(load(r.a + i)),
@@ -118,21 +118,22 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
           sigma(load(r.sigma + i)),
           shakes(r.shakes, i, r.next + i),
           factor(r.law, i),
-          field(shakes.gravity(weight_g) * left2) {
-      const Pack weight = load(r.weight + i) * left2;
+          field(shakes.gravity(weight_g) * fraction2) {
+      const Pack weight = load(r.weight + i) * fraction2;
       y.theta[0] = load(r.theta + i);
       y.rx[0] = load(r.rx + i);
       y.ry[0] = load(r.ry + i);
       y.xi[0] = load(r.xi + i);
-      y.omega[0] = omega0 * left;
-      y.w[0] = w0 * left;
-      y.slide_rock(field, weight * a, weight * (a_next - a), k2, friction, r.law.to_speed(i, sigma, left), factor);
+      y.omega[0] = omega0 * fraction;
+      y.w[0] = w0 * fraction;
+      y.slide_rock(field, weight * a, weight * (a_next - a), k2, friction, r.law.to_speed(i, sigma, fraction), factor);
     }
 
     // The series' last terms are small enough.
     PackMask settled() const {
       const Pack size = load(r.size + i);
-      return xsimd::max(xsimd::abs(y.omega[N + 1]) * size, xsimd::abs(y.w[N + 1])) < Friction::neglected(left) * size;
+      return xsimd::max(xsimd::abs(y.omega[N + 1]) * size, xsimd::abs(y.w[N + 1])) <
+             Friction::neglected(fraction) * size;
     }
     // The rotation is concave all through.
     PackMask domed() const {
@@ -170,7 +171,8 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     PackMask slips_on(const Pack& w) const {
       const Pack zero(0.0), slip0 = sigma * y.w[0], rises = sigma * y.w[1], curve = sigma * y.w[2];
       const Pack more = xsimd::abs(y.w[3]) + xsimd::abs(y.w[4]);
-      const PackMask leaves = (slip0 >= zero) & (rises > Pack(-slip_zero) * weight_g * left2) & (rises + curve > more);
+      const PackMask leaves =
+          (slip0 >= zero) & (rises > Pack(-slip_zero) * weight_g * fraction2) & (rises + curve > more);
       return (xsimd::min(slip0, sigma * w) > Pack(0.25) * xsimd::abs(curve) + Pack(0.5) * more) | leaves;
     }
     // Slip of the midpoint: u = xi + B (1 - cos theta).
@@ -179,8 +181,8 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     [[gnu::always_inline]] Touch touch(const Place& at) const {
       const Pack zero(0.0), two(2.0), &x = at.rx, &y1 = at.ry, &o = at.omega, mu = friction * at.factor;
       const Pack q = x + mu * y1, n = at.gravity - y1 * o * o, d = k2 + x * q, per_d = Pack(1.0) / d;
-      const Pack f = n * k2 * per_d, lift = f - weight_g * left2;
-      const Pack n_rate = plus_rate(x * o * o * o - two * y1 * o * (n * q * per_d), shakes.lift() * left2);
+      const Pack f = n * k2 * per_d, lift = f - weight_g * fraction2;
+      const Pack n_rate = plus_rate(x * o * o * o - two * y1 * o * (n * q * per_d), shakes.lift() * fraction2);
       Pack d_rate = o * (y1 * q + x * (y1 - mu * x)), change(0.0);
       if constexpr (Friction::by_speed) {
         const Pack mu_rate = friction * at.factor_rate;
@@ -188,7 +190,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
         change = mu * mu_rate * f * f * (d * d / k2);
       }
       const Pack slope = (n_rate * d - n * d_rate) * (mu * mu * f + lift) + change;
-      return {(mu * mu * f * f + lift * lift) / (left2 * left2), slope, (n > zero) & (d > Pack(0.05) * k2)};
+      return {(mu * mu * f * f + lift * lift) / (fraction2 * fraction2), slope, (n > zero) & (d > Pack(0.05) * k2)};
     }
     // The largest square, where its slope is positive at the start and negative at x.
     Pack top_between(const Touch& first, const Touch& last, const Pack& end) const {
@@ -236,18 +238,18 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   // The end of the step, but for the lanes that stay.
   void keep(const Step& s, const End& end, const PackMask& stays, const Pack& turned, const Pack& seen,
             const Pack& peak) {
-    const Pack per_left = Pack(1.0) / s.left;
+    const Pack per_fraction = Pack(1.0) / s.fraction;
     const PackMask goes = ~stays;
     const int i = s.i;
     store_where(goes, r_.look + i, turned);
     store_where(goes, r_.seen + i, seen);
     store_where(goes, r_.peak + i, peak);
     store_where(goes, r_.theta + i, end.theta);
-    store_where(goes, r_.omega + i, end.omega * per_left);
+    store_where(goes, r_.omega + i, end.omega * per_fraction);
     store_where(goes, r_.rx + i, end.rx);
     store_where(goes, r_.ry + i, end.ry);
     store_where(goes, r_.xi + i, end.xi);
-    store_where(goes, r_.w + i, end.w * per_left);
+    store_where(goes, r_.w + i, end.w * per_fraction);
   }
 
   Apart march(int i, unsigned here) {
@@ -266,7 +268,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     keep(s, end, stays, turned, seen, peak);
     store_where(~stays, r_.a + i, s.a_next);
     s.shakes.keep(r_.shakes, i, stays);
-    store_where(~stays, r_.left + i, one);
+    store_where(~stays, r_.fraction + i, one);
     const unsigned all = bits(stays) & here;
     advance(r_.next + i, here & ~all, Gravity::stride);
     return {all, all & bits((falls | (s.sigma * end.w <= zero)) & s.settled())};

@@ -10,10 +10,10 @@ namespace {
 // What a pack of impacts asks of its blocks. Mirrored so that the corner that comes down is the right one; time is counted
 // in intervals.
 struct StrikeRows {
-  alignas(64) double gravity[pack_lanes], push[pack_lanes];                    // as in SlideRockRows
-  alignas(64) double bend0[pack_lanes], bend1[pack_lanes], bend2[pack_lanes];  // as in SlideRockRows
-  alignas(64) double arm[pack_lanes], height[pack_lanes];                      // from the corner to the centre of mass
-  alignas(64) double kept[pack_lanes];                                         // of the rate
+  alignas(64) double gravity[pack_lanes], push[pack_lanes];                                   // as in SlideRockRows
+  alignas(64) double curvature0[pack_lanes], curvature1[pack_lanes], curvature2[pack_lanes];  // as in SlideRockRows
+  alignas(64) double arm[pack_lanes], height[pack_lanes];  // from the corner to the centre of mass
+  alignas(64) double kept[pack_lanes];                     // of the rate
   alignas(64) double told[pack_lanes];                     // squared rate before, of impacts that count
   alignas(64) double rests[pack_lanes];                    // squared rate after, under which all ends
   alignas(64) double peak[pack_lanes], shift[pack_lanes];  // slip: the largest so far; xi

@@ -11,6 +11,10 @@
 namespace freestand::measurement {
 namespace {
 
+using Eigen::Index;
+using Eigen::MatrixXf;
+using Eigen::VectorXf;
+
 constexpr std::size_t part = 64;                          // tests a job
 constexpr double middle_step = 0.03, scatter_step = 0.2;  // in the logarithm
 constexpr int polish_budget = 40;
@@ -279,18 +283,54 @@ std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std:
   return range;
 }
 
-Eigen::VectorXf TableSearch::least_squares(const Eigen::MatrixXf& outcomes) const {
+template <class Take>
+void TableSearch::sums_of_squares(const MatrixXf& outcomes, const VectorXf& weight, Take&& take) const {
   using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Index tests = outcomes.rows(), rows = static_cast<Eigen::Index>(rows_.size());
-  constexpr Eigen::Index at_once = 256;  // rows, so that products stay small
-  Eigen::VectorXf least = Eigen::VectorXf::Constant(outcomes.cols(), std::numeric_limits<float>::infinity());
-  for (Eigen::Index first = 0; first < rows; first += at_once) {
+  const Index tests = outcomes.rows(), rows = static_cast<Index>(rows_.size());
+  constexpr Index at_once = 256;  // so that products stay small
+  const VectorXf happened = outcomes.transpose() * weight;
+  for (Index first = 0; first < rows; first += at_once) {
     const Eigen::Map<const Rows> p(probability_.data() + first * tests, std::min(at_once, rows - first), tests);
-    Eigen::MatrixXf square = -2 * p * outcomes;  // but for what happened, which is the same for all rows
-    square.colwise() += p.rowwise().squaredNorm();
-    least = least.cwiseMin(square.colwise().minCoeff().transpose());
+    MatrixXf square = -2 * (p * weight.asDiagonal()) * outcomes;
+    square.colwise() += p.cwiseAbs2() * weight;
+    square.rowwise() += happened.transpose();
+    take(first, square);
   }
-  return least + outcomes.colwise().sum().transpose();
+}
+
+VectorXf TableSearch::least_squares(const MatrixXf& outcomes) const {
+  VectorXf least = VectorXf::Constant(outcomes.cols(), std::numeric_limits<float>::infinity());
+  sums_of_squares(outcomes, VectorXf::Ones(outcomes.rows()), [&](Index, const MatrixXf& square) {
+    least = least.cwiseMin(square.colwise().minCoeff().transpose());
+  });
+  return least;
+}
+
+VectorXf TableSearch::left_out_squares(const MatrixXf& outcomes) const {
+  const Index tests = outcomes.rows(), sets = outcomes.cols();
+  const auto fold = fold_of(static_cast<std::size_t>(tests));
+  const std::size_t folds = fold.empty() ? 0 : *std::max_element(fold.begin(), fold.end()) + 1;
+  VectorXf sum = VectorXf::Zero(sets);
+  for (std::size_t f = 0; f < folds; ++f) {
+    VectorXf others = VectorXf::Ones(tests);
+    for (Index t = 0; t < tests; ++t) others[t] = fold[static_cast<std::size_t>(t)] == f ? 0 : 1;
+    VectorXf least = VectorXf::Constant(sets, std::numeric_limits<float>::infinity());
+    std::vector<Index> row(static_cast<std::size_t>(sets), 0);
+    sums_of_squares(outcomes, others, [&](Index first, const MatrixXf& square) {
+      for (Index s = 0; s < sets; ++s) {
+        Index best = 0;
+        if (const float found = square.col(s).minCoeff(&best); found < least[s])
+          least[s] = found, row[static_cast<std::size_t>(s)] = first + best;
+      }
+    });
+    for (Index s = 0; s < sets; ++s)
+      for (Index t = 0; t < tests; ++t)
+        if (others[t] == 0) {
+          const auto at = static_cast<std::size_t>(row[static_cast<std::size_t>(s)] * tests + t);
+          sum[s] += std::pow(probability_[at] - outcomes(t, s), 2.0F);
+        }
+  }
+  return sum;
 }
 
 std::vector<double> TableSearch::scores() const {

@@ -53,8 +53,10 @@ class TableSearch {
   // Least mean score with these weights of the tests; all alike where empty. Of rows with the same score, which may be many where few tests
   // say little, the one at that share of them.
   TableFit best(const std::vector<double>& weight = {}, double among = 0) const;
-  // Least sums of squares of each set of outcomes (a column, 0 or 1 of each test), as it would be fitted by the rows.
+  // Of each set of outcomes (a column, 0 or 1 of each test): the least sum of squares of the rows, and that of tests left out in turn (fold_of),
+  // by the rows that are least in the others.
   Eigen::VectorXf least_squares(const Eigen::MatrixXf& outcomes) const;
+  Eigen::VectorXf left_out_squares(const Eigen::MatrixXf& outcomes) const;
   // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
   std::vector<double> scores() const;
   // Of each number, from all points whose scores are worse than those of the fit by no more than chance: by their paired
@@ -74,6 +76,9 @@ class TableSearch {
     double middle, scatter;
   };
   Values placed(const Row&) const;
+  // Calls take(first row, sums of squares [row, set]) for some rows at a time, of the tests with a weight of 1.
+  template <class Take>
+  void sums_of_squares(const Eigen::MatrixXf& outcomes, const Eigen::VectorXf& weight, Take&& take) const;
   const OutcomeTable& table_;
   std::vector<double> overturned_;  // 0 or 1, of each test
   std::vector<Row> rows_;

@@ -1,6 +1,7 @@
 #include "measurement/verdict/chance_of_outcomes.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/random.hpp"
 
@@ -24,9 +25,12 @@ MatrixXf outcomes_from(const Bench& bench, const TabulatedFit& model, std::uint6
   return y;
 }
 
-// Mean scores of the fits of a model to each set.
+// Mean scores of the fits of a model to each set; and of tests left out.
 VectorXf scores(const Bench& bench, const TabulatedFit& model, const MatrixXf& y) {
   return TableSearch(bench, model.table).least_squares(y) / static_cast<float>(y.rows());
+}
+VectorXf scores_left_out(const Bench& bench, const TabulatedFit& model, const MatrixXf& y) {
+  return TableSearch(bench, model.table).left_out_squares(y) / static_cast<float>(y.rows());
 }
 
 std::function<double(std::uint64_t)> in_simulations(const VectorXf& values) {
@@ -42,12 +46,12 @@ VectorXf leads(const Bench& bench, const TabulatedFit& best, const TabulatedFit&
 Chance chance_of_gain_of_outcomes(const Bench& bench, const TabulatedFit& base,
                                   const std::vector<const TabulatedFit*>& tried, const Jobs& jobs) {
   const MatrixXf y = outcomes_from(bench, base, 24);
-  const VectorXf without = scores(bench, base, y);
+  const VectorXf without = scores_left_out(bench, base, y);
   const auto answers = jobs("what effects gain in outcomes from the base", tried.size(), [&](std::size_t i) {
-    const VectorXf with = scores(bench, *tried[i], y);
+    const VectorXf with = scores_left_out(bench, *tried[i], y);
     return Values(with.begin(), with.end());
   });
-  VectorXf gains = VectorXf::Zero(without.size());  // at nothing an effect is as good as the base
+  VectorXf gains = VectorXf::Constant(without.size(), -std::numeric_limits<float>::infinity());
   for (const Values& with : answers)
     gains = gains.cwiseMax(without - Eigen::Map<const Eigen::VectorXd>(with.data(), without.size()).cast<float>());
   Chance chance{.question = help_question, .about = {}, .observed = gains[0]};

@@ -228,7 +228,7 @@ class OutcomeDiagnoser {
       const Chance alone = chance_of_gain_of_outcomes(bench_, base_, {&table_of(c)}, jobs_);
       say(fmt::format(
           "{} {} the left-out Brier score of the base by {:.4f} +- {:.4f} (were it the only effect tried, "
-          "outcomes from the base would be met so much better in a share of {:.2g})",
+          "outcomes from the base would give it as much in a share of {:.2g})",
           label(c), gain.error > 0 ? "lowers" : "raises", std::abs(gain.error), gain.standard_error, alone.p));
     }
     if (!unpromising.empty())

@@ -12,7 +12,7 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-class SlideRockLife : public SlideRockHops {
+class SlideRockTrajectory : public SlideRockHops {
  protected:
   using SlideRockHops::SlideRockHops;
 
@@ -20,7 +20,7 @@ class SlideRockLife : public SlideRockHops {
   // no part that is worth a step, the sample is better computed alone: less than a thousandth, of which a thousand would cost more.
   double valid_part(double omega, double w, int order, bool by_law) const {
     const double last = larger(magnitude(omega), magnitude(w) / c_.h);
-    const double allowed = by_law ? neglected_by_laws * left_ : neglected;
+    const double allowed = by_law ? neglected_by_laws * fraction_ : neglected;
     if (last < allowed) return 1;
     const double part = pow_outside(allowed / last, 1.0 / (by_law ? order - 1 : order));
     return part > 1e-3 ? part : 0;
@@ -43,12 +43,12 @@ class SlideRockLife : public SlideRockHops {
         const double before = c_.scale * t_.acceleration[static_cast<std::size_t>(j) - 1], g_before = gravity_at(j - 1);
         const double limit_before = quiet(after, g_before);
         const double part = (way * limit_before - before) / ((after - before) - way * (limit - limit_before));
-        left_ = j - 1 == m_ ? smaller(left_, 1 - part) : 1 - part;
+        fraction_ = j - 1 == m_ ? smaller(fraction_, 1 - part) : 1 - part;
         m_ = j - 1;
         g_ = g_before + (g - g_before) * part;
         a_ = way * quiet(after, g_);
         feel(a_, g_);
-        if (left_ < 1e-9 && m_ + 1 < last_) next_knot();  // 1e-11 s late at most: a push of 1e-10 m/s
+        if (fraction_ < 1e-9 && m_ + 1 < last_) next_knot();  // 1e-11 s late at most: a push of 1e-10 m/s
         event();
         side_ = after > 0 ? -1 : 1;
         if (tips_at(after, g_) <= slips_at(g_)) {
@@ -81,9 +81,9 @@ class SlideRockLife : public SlideRockHops {
 
   // ---- sliding under a constant friction, exact
   void slide_exactly() {
-    if (left_ == 1 && (!shaken_ || m_ >= last_)) slide_past_knots();
+    if (fraction_ == 1 && (!shaken_ || m_ >= last_)) slide_past_knots();
     if (declined_) return;
-    const double hs = h_ * left_, a1 = next_floor(), g1 = next_gravity(), friction = c_.mu_k * g_;
+    const double hs = h_ * fraction_, a1 = next_floor(), g1 = next_gravity(), friction = c_.mu_k * g_;
     if (!(smaller(g_, g1) > 0)) return decline();
     double p[3] = {sigma_ * w_, -(sigma_ * a_ + friction) * hs, -0.5 * (sigma_ * (a1 - a_) + c_.mu_k * (g1 - g_)) * hs};
     if (p[0] == 0 && p[1] < 0 && p[1] > -slip_zero * c_.g * hs) p[1] = 0;
@@ -219,7 +219,7 @@ class SlideRockLife : public SlideRockHops {
     };
     if (slip == 0 || w_ != 0) {
       const double lasts = two_hops(row) && m_ < last_ ? lasts_in_all(omega_, row) : 0;
-      if (const double part = lasts / (h_ * left_); part > 0 && part < 1) {  // the floor moves on meanwhile
+      if (const double part = lasts / (h_ * fraction_); part > 0 && part < 1) {  // the floor moves on meanwhile
         const Field here = field();
         a_ += (next_floor() - a_) * part;
         g_ += (next_gravity() - g_) * part;
@@ -259,17 +259,18 @@ class SlideRockLife : public SlideRockHops {
       const bool grips = w == 0 && magnitude(f.fx) <= c_.mu_s * f.fy;
       sigma_ = grips ? 0 : w > 0 || (w == 0 && f.fx < 0) ? 1 : -1;
       if (!grips) f = slipping(-arm(side), c_.h, 0.0, field(), w);
-      const double bend = 0.5 * side * f.alpha;
+      const double half_curvature = 0.5 * side * f.alpha;
       if (!(f.fy > 0)) return false;
       feel(f.fx, f.fy);
-      const double down = (rate + std::sqrt(rate * rate - 4 * bend * height)) / (-2 * bend), stops = -w / f.slip;
-      const double fall = bend < 0 ? down : 1e300;
+      const double down = (rate + std::sqrt(rate * rate - 4 * half_curvature * height)) / (-2 * half_curvature),
+                   stops = -w / f.slip;
+      const double fall = half_curvature < 0 ? down : 1e300;
       const bool slips_on = grips || !(stops > 0 && stops < fall);
       const double time = slips_on ? fall : stops;
-      if (m_ < last_ && !(time < h_ * left_)) return false;  // the floor decides what becomes of it
+      if (m_ < last_ && !(time < h_ * fraction_)) return false;  // the floor decides what becomes of it
       row.lasts += time;
-      height += time * (rate + time * bend);
-      rate += 2 * bend * time;
+      height += time * (rate + time * half_curvature);
+      rate += 2 * half_curvature * time;
       w = slips_on ? w + time * f.slip : 0;
       if (slips_on) {
         omega = side * rate;

@@ -1,4 +1,4 @@
-// The life of one sample on a Bouc-Wen contact, from turn to turn: what both scalar integrators share. They differ in
+// The trajectory of one sample on a Bouc-Wen contact, from turn to turn: what both scalar integrators share. They differ in
 // how they move between events.
 #pragma once
 
@@ -15,9 +15,9 @@
 
 namespace freestand::dynamics {
 
-class BoucWenLife {
+class BoucWenTrajectory {
  public:
-  BoucWenLife(const Setup& setup, const Settings& settings, History* history);
+  BoucWenTrajectory(const Setup& setup, const Settings& settings, History* history);
 
   const Settings settings;
   const Shaking shaking;
@@ -86,12 +86,12 @@ class BoucWenLife {
 };
 
 template <class Point>
-void BoucWenLife::record(double tau, Point&& point) {
+void BoucWenTrajectory::record(double tau, Point&& point) {
   times_.within(cursor.time(), tau, [&](double t) { history_->points.push_back(point(t)); });
 }
 
 template <int N>
-void BoucWenLife::arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor, double tau) {
+void BoucWenTrajectory::arrive(const BoucWenArc<N>& arc, const Floor<double, N>& floor, double tau) {
   const double s = direction;
   const bool loading = phase == ContactPhase::yielding || phase == ContactPhase::sliding;
   record(tau, [&](double t) {

@@ -1,4 +1,4 @@
-#include "dynamics/bouc_wen_life.hpp"
+#include "dynamics/bouc_wen_trajectory.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ BoucWenContact bouc_wen_contact(double mu, const BoucWen& law, double tolerance)
   return contact;
 }
 
-BoucWenLife::BoucWenLife(const Setup& setup, const Settings& settings_, History* history)
+BoucWenTrajectory::BoucWenTrajectory(const Setup& setup, const Settings& settings_, History* history)
     : settings(settings_),
       shaking(setup.shaking),
       gravity(standard_gravity_mps2 * setup.floor.gravity_factor),
@@ -44,12 +44,12 @@ BoucWenLife::BoucWenLife(const Setup& setup, const Settings& settings_, History*
   if (cursor.motion_over() && push == 0 && !laws) finish(Outcome::moved);
 }
 
-double BoucWenLife::time_left() const {
+double BoucWenTrajectory::time_left() const {
   if (!cursor.motion_over()) return cursor.left();
   return std::max(0.0, shaking.duration_s() + settings.free_vibration_s - cursor.time());
 }
 
-void BoucWenLife::set_out(int towards) {
+void BoucWenTrajectory::set_out(int towards) {
   direction = towards;
   law_state.side = zeta == 0 ? towards : zeta > 0 ? 1 : -1;
   const double along = direction * zeta;
@@ -64,19 +64,19 @@ void BoucWenLife::set_out(int towards) {
   q = contact.q(zeta);
 }
 
-void BoucWenLife::pass() {
+void BoucWenTrajectory::pass() {
   phase = phase == ContactPhase::elastic ? ContactPhase::yielding : ContactPhase::elastic;
   q = contact.q(zeta);
 }
 
-void BoucWenLife::saturate() {
+void BoucWenTrajectory::saturate() {
   const double all = displacement();
   zeta = direction;
   slip = all - contact.yield * zeta;
   phase = ContactPhase::sliding;
 }
 
-void BoucWenLife::turn() {
+void BoucWenTrajectory::turn() {
   v = 0;
   direction = 0;
   observe_slip(displacement());
@@ -97,7 +97,7 @@ void BoucWenLife::turn() {
 // With forces besides the floor's the ringing has no closed form. It is left when two swings, one each way, slip no more than this, over
 // u_y: the swings to come slip less and less. One swing alone tells nothing: where a slope or a spring leans on the contact, the
 // swing against it gives back what the contact holds, without a slip, and the next one creeps.
-bool BoucWenLife::settled() {
+bool BoucWenTrajectory::settled() {
   constexpr double settled_slip = 1e-6;
   const double since = std::max(shaking.duration_s(), last_slide_s_) + (laws ? laws->settling_s : 0);
   const double swing = std::abs(slip - last_turn_slip_), before = last_swing_slip_;
@@ -106,7 +106,7 @@ bool BoucWenLife::settled() {
 }
 
 // All that follows is symmetric: the swings begin against the side on which the block turned.
-void BoucWenLife::ring() {
+void BoucWenTrajectory::ring() {
   const RingOut out = ring_out(contact, std::abs(zeta));
   const double towards = zeta > 0 ? -1 : 1;
   observe_slip(slip + towards * out.reach_m);
@@ -116,7 +116,7 @@ void BoucWenLife::ring() {
   finish(Outcome::moved);
 }
 
-void BoucWenLife::stand(double tau) {
+void BoucWenTrajectory::stand(double tau) {
   const bool to_knot = tau == cursor.left();
   const auto floor = cursor.local<max_floor_degree>();
   BoucWenArc<max_floor_degree> still{};
@@ -134,21 +134,21 @@ void BoucWenLife::stand(double tau) {
   if (to_knot) next_segment();
 }
 
-void BoucWenLife::next_segment() {
+void BoucWenTrajectory::next_segment() {
   cursor.next_segment();
   watch.steps = 0;
   if (cursor.motion_over() && v == 0 && zeta == 0 && push == 0 && !laws) finish(Outcome::moved);
 }
 
-double BoucWenLife::next_output() const {
+double BoucWenTrajectory::next_output() const {
   return times_.wanted() ? times_.next() - cursor.time() : std::numeric_limits<double>::infinity();
 }
 
-void BoucWenLife::begin_slide(double time) {
+void BoucWenTrajectory::begin_slide(double time) {
   if (!slides_) event(time, Mode::rest, Mode::slide);
 }
 
-void BoucWenLife::event(double time, Mode from, Mode to) {
+void BoucWenTrajectory::event(double time, Mode from, Mode to) {
   slides_ = to == Mode::slide;
   last_slide_s_ = time;
   moved_ = true;
@@ -156,17 +156,17 @@ void BoucWenLife::event(double time, Mode from, Mode to) {
   if (history_) history_->events.push_back({time, from, to, 0, false});
 }
 
-void BoucWenLife::observe_acceleration(double horizontal, double lift) {
+void BoucWenTrajectory::observe_acceleration(double horizontal, double lift) {
   response_.peak_acceleration_mps2 =
       std::max(response_.peak_acceleration_mps2, std::sqrt(horizontal * horizontal + lift * lift));
 }
 
-void BoucWenLife::check() {
+void BoucWenTrajectory::check() {
   if (!std::isfinite(slip) || !std::isfinite(zeta) || !std::isfinite(v)) return finish(Outcome::not_finite);
   if (cursor.motion_over() && cursor.time() >= shaking.duration_s() + settings.free_vibration_s) finish(Outcome::moved);
 }
 
-void BoucWenLife::finish(Outcome failure) {
+void BoucWenTrajectory::finish(Outcome failure) {
   if (finished_) return;
   finished_ = true;
   failure_ = failure;
@@ -174,14 +174,14 @@ void BoucWenLife::finish(Outcome failure) {
   if (simple()) observe_acceleration(contact.strength * gravity * zeta, 0);
 }
 
-void BoucWenLife::observe_slip(double u) {
+void BoucWenTrajectory::observe_slip(double u) {
   response_.peak_slip_m = std::max(response_.peak_slip_m, std::abs(u));
   if (!settings.slip_by_side) return;
   response_.peak_slip_right_m = std::fmax(response_.peak_slip_right_m, u);
   response_.peak_slip_left_m = std::fmax(response_.peak_slip_left_m, -u);
 }
 
-Response BoucWenLife::result() {
+Response BoucWenTrajectory::result() {
   response_.outcome = failure_ != Outcome::moved ? failure_ : moved_ ? Outcome::moved : Outcome::at_rest;
   response_.residual_slip_m = residual_.value_or(displacement());
   response_.connection_failed = laws && laws->broken(law_state.sides);

@@ -11,30 +11,30 @@ namespace {
 
 inline double smaller(double a, double b) { return b < a ? b : a; }
 
-struct Ground {
+struct CornerConstants {
   double arm, per_inertia;  // signed, as c in dynamics/contact.hpp; 1/J
   double weight, tip, kappa,
-      bend;                    // beta = weight + tip a pulls the block back; kappa - bend a: d theta''/d theta there
-  double kept;                 // of the rate, at the impact that ends the stay on this corner
-  double per_weight;           // 1/weight: a free hop with rate omega turns by omega^2/(2 weight)
-  double told, rests;          // squared rates of the hops at whose end an impact counts, or rest begins
-  double bend0, bend1, bend2;  // bounds of what the forces do within an interval, in rates per interval
-  double lift_bend;            // as bend1, for changes of the floor's vertical acceleration times h^2
+      kappa_by_a;      // beta = weight + tip a pulls the block back; kappa - kappa_by_a a: d theta''/d theta there
+  double kept;         // of the rate, at the impact that ends the stay on this corner
+  double per_weight;   // 1/weight: a free hop with rate omega turns by omega^2/(2 weight)
+  double told, rests;  // squared rates of the hops at whose end an impact counts, or rest begins
+  double curvature0, curvature1, curvature2;  // bounds of what the forces do within an interval, in rates per interval
+  double lift_curvature;  // as curvature1, for changes of the floor's vertical acceleration times h^2
 
-  Ground(const BatchCase& c, int side) {
+  CornerConstants(const BatchCase& c, int side) {
     const double b = side > 0 ? c.right : c.left, other = side > 0 ? c.left : c.right, size2 = c.h * c.h + b * b;
     arm = side * b;
     per_inertia = 1 / (c.k2 + size2);
     weight = c.g * b * per_inertia;
     tip = side * c.h * per_inertia;
     kappa = c.g * c.h * per_inertia;
-    bend = side * b * per_inertia;
+    kappa_by_a = side * b * per_inertia;
     const double ratio = (c.k2 + c.h * c.h - b * other) / (c.k2 + c.h * c.h + other * other);
     kept = c.factor * larger(ratio, 0);
     per_weight = 1 / weight;
     told = 2 * weight * c.told_rotation;
     rests = 2 * weight * c.rest_rotation;
-    bound_bends(c, size2);
+    bound_curvatures(c, size2);
   }
 
   double pull(double a, double v) const { return weight + tip * a + magnitude(arm) * per_inertia * v; }
@@ -45,16 +45,16 @@ struct Ground {
   // |Omega'| <= E r and |Omega| <= |Omega_0| + E r,
   //     |f''| <= r^2 (4 E^2 r + 5 E Omega^2 + 6 (h^2/J) (|da| + |dv|) |Omega|) + smaller terms,
   // and f leaves its chord by |f''|/8 at most; here times 1.5 or 1 + mu, for both forces.
-  void bound_bends(const BatchCase& c, double size2) {
+  void bound_curvatures(const BatchCase& c, double size2) {
     const double size = std::sqrt(size2), per = c.table->step_s * c.table->step_s * per_inertia;
     double most = magnitude(c.scale) * c.table->later_peak[0];
     if (c.vertical_scale != 0) most += magnitude(c.vertical_scale) * c.table->later_vertical_peak[0];
     const double field = (c.g + most) * per;
     const double share = (c.mu_s > 0.5 ? 1 + c.mu_s : 1.5) / 8;
-    bend0 = share * 17 * size2 * field * field * size;
-    bend1 = share * 6.6 * size2 * magnitude(c.scale) * per;
-    lift_bend = share * 6.6 * size2 * per_inertia;
-    bend2 = share * 17 * size2 * field;
+    curvature0 = share * 17 * size2 * field * field * size;
+    curvature1 = share * 6.6 * size2 * magnitude(c.scale) * per;
+    lift_curvature = share * 6.6 * size2 * per_inertia;
+    curvature2 = share * 17 * size2 * field;
   }
 };
 
@@ -68,7 +68,7 @@ struct HopBounds {
   double row;              // a row of hops lasts row/slow times its first rate, at most
   double limit2;           // squared rotation up to which the series of hops holds
 
-  HopBounds(const BatchCase& c, const Ground& left, const Ground& right) {
+  HopBounds(const BatchCase& c, const CornerConstants& left, const CornerConstants& right) {
     const double shorter = smaller(c.left, c.right), rim = larger(c.left, c.right), h2 = c.h * c.h;
     const double most = larger(left.per_inertia, right.per_inertia),
                  least = smaller(left.per_inertia, right.per_inertia);
