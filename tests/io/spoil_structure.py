@@ -5,6 +5,7 @@ import shutil
 import sys
 
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "postprocess"))
 
 try:
     import h5py
@@ -12,6 +13,8 @@ try:
 except ImportError as why:
     print(why)
     sys.exit(77)
+
+from freestand_post import closing  # noqa: E402
 
 
 def remade(group, name, values=None, **how):
@@ -67,6 +70,7 @@ def spoil(source, folder, every):
         try:
             with h5py.File(path, "r+") as file:
                 change(file)
+            closing.close(path)
         except (TypeError, ValueError, OSError, RuntimeError, KeyError):  # h5py itself will not have it
             path.unlink()
             return
