@@ -44,7 +44,7 @@ def dataset_faults(values):
     yield "elsewhere", lambda group, name: (group.__delitem__(name), group.__setitem__(name, h5py.ExternalLink("/dev/zero", "/")))
     if not is_text and flat.size:
         yield "outside", lambda group, name: remade(group, name, flat, external=[("/dev/zero", 0, flat.nbytes)])
-        yield "large piece", lambda group, name: remade(group, name, flat, maxshape=(None,), chunks=(1 << 26,), compression=1)
+        yield "large piece", lambda group, name: remade(group, name, flat, maxshape=(None,), chunks=(1 << 14,), compression=1)
         for word, number in (("nan", float("nan")), ("large", 1e300), ("negative", -7.0)):
             yield word, lambda group, name, number=number: remade(group, name, np.full(values.shape, number))
 
