@@ -9,7 +9,7 @@ import jinja2
 import numpy as np
 from markupsafe import Markup
 
-from . import words
+from . import closing, words
 from .problem import Problem
 
 HERE = pathlib.Path(__file__).parent
@@ -48,6 +48,8 @@ def _rows(table):
 def read_database(folder):
     path = folder / NAME
     try:
+        if closing.is_damaged(path):
+            raise Problem(f"{path} was damaged, or changed, since freestand closed it (the checksum in its last line is another one): build it again")
         with h5py.File(path) as root:
             if root.attrs.get("format") != FORMAT:
                 raise Problem(f"{path} cannot be used (its format is \"{root.attrs.get('format', '')}\", not \"{FORMAT}\"): build the database again")

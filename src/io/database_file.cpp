@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <freestand/error.hpp>
 #include <numeric>
 
@@ -35,6 +36,11 @@ h5::Dataset write_numbers(h5::Group& group, const char* name, std::size_t count)
   h5::Dataset scale = group.put(name, numbers);
   scale.scale(name).describe("1", "row of this table");
   return scale;
+}
+
+void expect(bool holds, const h5::Group& group, const char* what) {
+  if (!holds)
+    throw Error(fmt::format("{} cannot be used ({}): build the database again", group.file_path(), what), Exit::data);
 }
 
 template <class Row>
@@ -165,6 +171,7 @@ Database read_database(const std::filesystem::path& path) {
   db.name = root.text_attribute("name");
   db.revision = root.text_attribute("revision");
   db.confidence = root.real_attribute("confidence");
+  expect(db.confidence > 0 && db.confidence < 1, root, "its confidence is no share");
   db.classes = root.open_dataset("classes").read_texts();
   db.intensities = read_words(root, "intensities");
   db.demands = read_words(root, "demands");
@@ -174,8 +181,10 @@ Database read_database(const std::filesystem::path& path) {
   for (const auto& column : curve_columns()) read_column(curves, column, db.curves);
   const auto entry_of = read_rows(curves, "entry", db.curves.size(), db.entries.size());
   for (std::size_t i = 0; i < db.curves.size(); ++i) db.curves[i].entry = entry_of[i];
+  for (const Curve& curve : db.curves) expect(std::isfinite(curve.capacity), curves, "a capacity is no number");
   std::vector<Point> all;
   for (const auto& column : point_columns()) read_column(points, column, all);
+  for (const Point& point : all) expect(std::isfinite(point.im), points, "an intensity is no number");
   const auto curve_of = read_rows(points, "curve", all.size(), db.curves.size());
   for (std::size_t i = 0; i < all.size(); ++i) db.curves[curve_of[i]].points.push_back(all[i]);
   return db;

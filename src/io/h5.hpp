@@ -1,7 +1,8 @@
 // A small C++ face of the HDF5 C library: files, groups, datasets, attributes, dimension scales.
 //
 // Everything throws freestand::Error naming the file; HDF5's own error printing is switched off. A new file is written
-// aside and gets its name when it is finished, so under its name it is whole. Identifiers of HDF5 are 64-bit integers.
+// aside and gets its name when it is finished, so under its name it is whole; its last line (closing_line.hpp) tells whether it still is
+// when it is read. Identifiers of HDF5 are 64-bit integers.
 #pragma once
 
 #include <cstdint>
@@ -140,7 +141,7 @@ class File {
   static File create_at(const std::filesystem::path& aside, const std::filesystem::path& path);
   void close();
 
-  // An existing file, to read. Any number of processes at once. Throws Error (Exit::data) if it is not HDF5.
+  // An existing file, to read. Any number of processes at once. Throws Error (Exit::data) if it is not what was written.
   static File open(const std::filesystem::path& path);
 
   Group root() const;

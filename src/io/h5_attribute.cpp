@@ -125,4 +125,12 @@ double Object::real_attribute(const std::string& name) const {
   return only(read_numbers<double>(id(), *file_, name, H5T_FLOAT), *file_, name);
 }
 
+std::int64_t count_attribute(const Object& object, const std::string& name, std::int64_t most) {
+  const std::int64_t count = object.integer_attribute(name);
+  if (count < 0 || count > most)
+    throw failure(object.file_path(), fmt::format("attribute {} is {}, and 0 to {} belong there", name, count, most),
+                  Doing::reading);
+  return count;
+}
+
 }  // namespace freestand::io::h5

@@ -57,8 +57,23 @@ struct RowSpaces {
 // is none that was written.
 constexpr double most_packed = 1032;
 
+// A piece is unpacked as a whole: none is larger than the dataset.
+void expect_small_pieces(Id dataset, const std::string& file, const Dimensions& dimensions) {
+  const Handle how =
+      checked(H5Dget_create_plist(dataset), H5Pclose, file, "layout of " + name_of(dataset), Doing::reading);
+  if (H5Pget_layout(how.id()) != H5D_CHUNKED) return;
+  std::vector<hsize_t> piece(dimensions.size());
+  H5Pget_chunk(how.id(), static_cast<int>(piece.size()), piece.data());
+  for (std::size_t i = 0; i < piece.size(); ++i)
+    if (piece[i] > std::max<hsize_t>(1, dimensions[i]))
+      throw failure(file,
+                    fmt::format("{} has pieces of {} rows, and {} rows", name_of(dataset), piece[i], dimensions[i]),
+                    Doing::reading);
+}
+
 // How many values the dataset has. Throws where the file cannot hold them.
 std::size_t held_count(Id dataset, const std::string& file, const Dimensions& dimensions) {
+  expect_small_pieces(dataset, file, dimensions);
   const Handle type = checked(H5Dget_type(dataset), H5Tclose, file, "type of a dataset", Doing::reading);
   double bytes = static_cast<double>(H5Tget_size(type.id()));
   for (const std::uint64_t extent : dimensions) bytes *= static_cast<double>(extent);

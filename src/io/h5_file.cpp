@@ -9,6 +9,7 @@
 #include <system_error>
 
 #include "base/durable_file.hpp"
+#include "io/closing_line.hpp"
 #include "io/h5_internal.hpp"
 
 namespace freestand::io::h5 {
@@ -166,6 +167,7 @@ File File::create_at(const fs::path& aside, const fs::path& path) {
 }
 
 File File::open(const fs::path& path) {
+  check_closing_line(path);
   start_library();
   auto state = std::make_unique<State>();
   state->path = path;
@@ -186,6 +188,7 @@ void File::close() {
   if (H5Fflush(state_->file.id(), H5F_SCOPE_GLOBAL) < 0)
     throw failure(*state_->name, "not all is written", Doing::writing);
   close_without_writing(state_->file);
+  append_closing_line(state_->aside, state_->path);
   state_->aside.clear();
 }
 
@@ -197,7 +200,7 @@ void File::finish() {
   std::string bytes(static_cast<std::size_t>(std::max<ssize_t>(size, 0)), '\0');
   if (size <= 0 || H5Fget_file_image(id, bytes.data(), bytes.size()) != size)
     throw failure(name, "it cannot be copied out of memory", Doing::writing);
-  write_durably(state_->path, bytes);
+  write_durably(state_->path, bytes + closing_line(bytes));
 }
 
 }  // namespace freestand::io::h5

@@ -46,6 +46,24 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* into) {
 
 }  // namespace
 
+namespace {
+
+// A link to another file may lead to a device that never ends, and one within this file is none that freestand writes.
+void expect_no_link(Id group, const std::string& name, const std::string& file) {
+  H5L_info_t info;
+  if (H5Lget_info(group, name.c_str(), &info, H5P_DEFAULT) >= 0 && info.type != H5L_TYPE_HARD)
+    throw failure(file, name + " is a link to elsewhere", Doing::reading);
+}
+
+// Nor do its values lie in another file.
+void expect_own_values(Id dataset, const std::string& name, const std::string& file) {
+  const Handle how = checked(H5Dget_create_plist(dataset), H5Pclose, file, "layout of " + name, Doing::reading);
+  if (H5Pget_external_count(how.id()) != 0 || H5Pget_layout(how.id()) == H5D_VIRTUAL)
+    throw failure(file, "the values of " + name + " lie elsewhere", Doing::reading);
+}
+
+}  // namespace
+
 Handle text_type(const std::string& file) {
   Handle type = checked(H5Tcopy(H5T_C_S1), H5Tclose, file, "type of a text", Doing::writing);
   H5Tset_size(type.id(), H5T_VARIABLE);
@@ -61,6 +79,7 @@ Group Group::make_group(const std::string& name) {
 }
 
 Group Group::open_group(const std::string& name) const {
+  expect_no_link(id(), name, *file_);
   Handle group =
       checked(H5Gopen2(id(), name.c_str(), H5P_DEFAULT), H5Gclose, *file_, "no group " + name, Doing::reading);
   return Group(std::move(group), file_);
@@ -102,8 +121,10 @@ Dataset Group::make_in_pieces(const std::string& name, Type type, std::uint64_t 
 }
 
 Dataset Group::open_dataset(const std::string& name) const {
+  expect_no_link(id(), name, *file_);
   Handle dataset =
       checked(H5Dopen2(id(), name.c_str(), H5P_DEFAULT), H5Dclose, *file_, "no dataset " + name, Doing::reading);
+  expect_own_values(dataset.id(), name, *file_);
   return Dataset(std::move(dataset), file_);
 }
 

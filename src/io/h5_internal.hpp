@@ -34,6 +34,9 @@ Id memory_type() {
   if constexpr (std::is_same_v<T, std::uint8_t>) return H5T_NATIVE_UINT8;
 }
 
+// A whole number from 0 to `most`, or Error (Exit::data).
+std::int64_t count_attribute(const Object& object, const std::string& name, std::int64_t most);
+
 // Of the file in which an object lies.
 hsize_t file_bytes(Id object);
 

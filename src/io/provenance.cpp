@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <freestand/error.hpp>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "build_info.hpp"
@@ -116,8 +117,8 @@ Provenance read_provenance(const h5::Group& root, const std::string& format) {
   if (root.has_attribute("doubts")) from.doubts = root.text_attribute("doubts");
   if (root.has_attribute("kernel")) from.kernel = root.text_attribute("kernel");
   from.seed = static_cast<std::uint64_t>(root.integer_attribute("seed"));
-  from.samples = root.integer_attribute("samples");
-  if (root.has_attribute("samples_alike")) from.alike = root.integer_attribute("samples_alike");
+  from.samples = h5::count_attribute(root, "samples", std::numeric_limits<std::int64_t>::max());
+  if (root.has_attribute("samples_alike")) from.alike = h5::count_attribute(root, "samples_alike", from.samples);
   from.version = root.text_attribute("version");
   from.git_commit = root.text_attribute("git_commit");
   from.compiler = root.text_attribute("compiler");
@@ -125,7 +126,7 @@ Provenance read_provenance(const h5::Group& root, const std::string& format) {
   from.host = root.text_attribute("host");
   from.created_utc = root.text_attribute("created_utc");
   from.command = root.text_attribute("command");
-  from.ranks = static_cast<int>(root.integer_attribute("ranks"));
+  from.ranks = static_cast<int>(h5::count_attribute(root, "ranks", std::numeric_limits<int>::max()));
   return from;
 }
 

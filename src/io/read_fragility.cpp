@@ -1,10 +1,13 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <freestand/error.hpp>
+#include <limits>
 
 #include "io/bin_fields.hpp"
 #include "io/fragility_file.hpp"
+#include "io/h5_internal.hpp"
 
 namespace freestand::io {
 namespace {
@@ -14,6 +17,9 @@ using fragility::EdpResult;
 using fragility::FragilityFunction;
 using fragility::Result;
 using h5::Group;
+
+constexpr std::int64_t most_samples = std::int64_t{1} << 53;  // whole numbers that a double tells apart
+constexpr std::int64_t most_motions = std::numeric_limits<int>::max();
 
 std::vector<double> values(const Group& group, const std::string& name) { return group.open_dataset(name).read(); }
 
@@ -27,6 +33,14 @@ std::vector<std::int64_t> whole(const Group& group, const std::string& name, std
 
 Error misfit(const Group& group, const std::string& what) {
   return Error(fmt::format("{} cannot be used ({}): fit again", group.file_path(), what), Exit::data);
+}
+
+// Where every value is a number: intensities and capacities.
+std::vector<double> numbers(const Group& group, const std::string& name) {
+  std::vector<double> read = values(group, name);
+  for (const double value : read)
+    if (!std::isfinite(value)) throw misfit(group, fmt::format("{} holds {}", name, value));
+  return read;
 }
 
 template <class Field, class Values>
@@ -75,8 +89,12 @@ void read_cells(const Group& group, std::vector<FragilityFunction>& curves) {
   read_curve(group, &FragilityFunction::cell_n, "cell_n", cell.size(), curves);
   const auto read_again = [&](const char* name, std::vector<double> FragilityFunction::*of) {
     if (!group.has(name)) return;
-    const std::size_t width = group.open_dataset(name).dimensions().at(1) * cell.size();
-    read_curve(group, of, name, width, curves);
+    const h5::Dimensions extent = group.open_dataset(name).dimensions();
+    if (extent.size() != 3 || extent[0] != curves.size() || extent[2] != cell.size())
+      throw misfit(group, fmt::format("{} is [{}], not [{}, repeat, {}]", name, fmt::join(extent, ", "), curves.size(),
+                                      cell.size()));
+    if (cell.empty() || curves.empty()) return;
+    read_curve(group, of, name, values(group, name).size() / curves.size(), curves);
     for (FragilityFunction& curve : curves)
       if (!(curve.*of).empty() && std::isnan((curve.*of).front())) (curve.*of).clear();
   };
@@ -146,10 +164,10 @@ EdpResult read_edp(const Group& group, const std::string& name, std::size_t bins
   edp.unit = group.text_attribute("unit");
   edp.symbol = group.text_attribute("symbol");
   edp.binary = group.text_attribute("kind") == "binary";
-  edp.regressions.n = group.integer_attribute("regression_n");
+  edp.regressions.n = h5::count_attribute(group, "regression_n", most_samples);
   for (const RegressionField& field : regression_fields())
     edp.regressions.*field.value = group.real_attribute(field.name);
-  edp.capacity = values(group, "capacity");
+  edp.capacity = numbers(group, "capacity");
   read_bins(group, edp, bins);
   edp.surface = read_surface(group.open_group("surface"), bins * edp.capacity.size());
   if (group.has("functions")) read_functions(group.open_group("functions"), edp);
@@ -186,26 +204,32 @@ FragilityFile read_fragility(const std::filesystem::path& path) {
   if (root.has_attribute("im_period_s")) result.im_period_s = root.real_attribute("im_period_s");
   if (root.has_attribute("im_damping")) result.im_damping = root.real_attribute("im_damping");
   result.confidence = root.real_attribute("confidence");
-  result.resamples = static_cast<int>(root.integer_attribute("resamples"));
+  if (!(result.confidence > 0 && result.confidence < 1))
+    throw misfit(root, fmt::format("its confidence is {}", result.confidence));
+  result.resamples = static_cast<int>(h5::count_attribute(root, "resamples", most_motions));
   const std::vector<std::int64_t> outcomes = root.integers_attribute("outcome_counts");
   if (outcomes.size() != result.outcome_counts.size())
     throw misfit(root,
                  fmt::format("it counts {} outcomes instead of {}", outcomes.size(), result.outcome_counts.size()));
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (outcomes[i] < 0 || outcomes[i] > most_samples)
+      throw misfit(root, fmt::format("{} samples had one outcome", outcomes[i]));
     result.outcome_counts[i] = outcomes[i];
     result.samples += outcomes[i];
   }
-  result.outside_im = root.integer_attribute("outside_im");
-  result.motions = static_cast<int>(root.integer_attribute("motions"));
+  result.outside_im = h5::count_attribute(root, "outside_im", most_samples);
+  result.motions = static_cast<int>(h5::count_attribute(root, "motions", most_motions));
   if (root.has_attribute("left_out_records"))
-    result.left_out_records = static_cast<int>(root.integer_attribute("left_out_records"));
+    result.left_out_records = static_cast<int>(h5::count_attribute(root, "left_out_records", most_motions));
   result.warnings = root.texts_attribute("warnings");
   const Group im = root.open_group("im");
-  result.im = values(im, "centre");
-  result.im_edge = values(im, "edge", result.im.size() + 1);
+  result.im = numbers(im, "centre");
+  result.im_edge = numbers(im, "edge");
+  if (result.im_edge.size() != result.im.size() + 1)
+    throw misfit(im, fmt::format("{} edges of {} bins", result.im_edge.size(), result.im.size()));
   if (!im.has("cell"))
     throw misfit(im, "it is of an earlier version, and does not tell how intensities are spread within bins");
-  result.cell_im = values(im, "cell");
+  result.cell_im = numbers(im, "cell");
   if (result.im.empty() || result.cell_im.size() % result.im.size() != 0)
     throw misfit(im, fmt::format("it has {} fine cells in {} bins", result.cell_im.size(), result.im.size()));
   result.cell_n = whole(im, "cell_n", result.cell_im.size());

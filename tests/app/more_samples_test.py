@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from support import InFolder, datasets, h5py, result, study_text
+from support import InFolder, closing, datasets, h5py, result, study_text
 
 
 class MoreSamples(InFolder):
@@ -40,8 +40,10 @@ class MoreSamples(InFolder):
         self.run_study(out, samples=300)
         with h5py.File(out / "samples.h5", "r+") as file:
             file.attrs["kernel"] = "00000001"
-        before = result(out)
         study = self.write("more.yaml", study_text(samples=600))
+        self.fail_with(3, ["run", study, "-o", out, "--resume", "--quiet"], "samples.h5", "does not end with the line")
+        closing.close(out / "samples.h5")
+        before = result(out)
         self.fail_with(2, ["run", study, "-o", out, "--resume", "--quiet"], "another version of freestand")
         self.assertEqual(result(out), before)
 

@@ -17,6 +17,9 @@ except ImportError:
     print("skipped: python3-h5py is not installed")
     sys.exit(77)
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "postprocess"))
+from freestand_post import closing  # noqa: E402, F401
+
 FREESTAND = os.environ["FREESTAND"]
 MPIEXEC = os.environ["MPIEXEC"]
 

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "base/durable_file.hpp"
+#include "io/closing_line.hpp"
 #include "io/packed.hpp"
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
@@ -156,6 +157,48 @@ TEST(H5, AFileCutShortIsNoticed) {
     std::ofstream(scratch / "cut.h5", std::ios::binary) << whole.substr(0, length);
     EXPECT_THAT(error_text(Exit::data, [&] { File::open(scratch / "cut.h5"); }), HasSubstr("cut.h5")) << length;
   }
+}
+
+// Numbers that lie there unpacked, the texts beside them, and everything that HDF5 goes by: each byte counts.
+TEST(H5, AByteThatHasChangedIsNoticed) {
+  const test::Scratch scratch("h5");
+  {
+    File file = File::create(scratch / "x.h5");
+    file.root().put("values", std::vector<double>(20, 1.0)).describe("m", "what");
+    file.finish();
+  }
+  const std::string whole = read_whole(scratch / "x.h5");
+  std::fstream spoilt(scratch / "x.h5", std::ios::binary | std::ios::in | std::ios::out);
+  std::size_t unnoticed = 0;
+  for (std::size_t at = 0; at < whole.size(); ++at) {
+    spoilt.seekp(static_cast<std::streamoff>(at)).put(static_cast<char>(whole[at] ^ 1)).flush();
+    try {
+      File::open(scratch / "x.h5");
+      ++unnoticed;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit(), Exit::data);
+      EXPECT_THAT(error.what(), AllOf(HasSubstr("x.h5"), HasSubstr("make it again")));
+    }
+    spoilt.seekp(static_cast<std::streamoff>(at)).put(whole[at]).flush();
+  }
+  EXPECT_EQ(unnoticed, 0U) << "of " << whole.size();
+  EXPECT_NO_THROW(File::open(scratch / "x.h5"));
+}
+
+TEST(H5, AFileInPiecesIsClosedAlike) {
+  const test::Scratch scratch("h5");
+  {
+    File file = File::create_at(scratch / "aside.h5", scratch / "x.h5");
+    const std::vector<std::int32_t> rows{1, 2};
+    file.root().make_in_pieces("rows", Type::integer, 2, 2).write_piece(0, packed(std::as_bytes(std::span(rows)), 4));
+    file.close();
+  }
+  const std::string whole = read_whole(scratch / "aside.h5");
+  EXPECT_EQ(whole.substr(whole.size() - closing_line("").size()),
+            closing_line(std::string_view(whole).substr(0, whole.size() - closing_line("").size())));
+  std::ofstream(scratch / "aside.h5", std::ios::binary | std::ios::app) << '\n';
+  EXPECT_THAT(error_text(Exit::data, [&] { File::open(scratch / "aside.h5"); }),
+              HasSubstr("does not end with the line"));
 }
 
 TEST(H5, WhatIsNotThereIsNamedWithTheFile) {

@@ -5,6 +5,7 @@ import shutil
 import sys
 
 sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "postprocess"))
 
 try:
     import h5py
@@ -12,6 +13,8 @@ try:
 except ImportError as why:
     print(why)
     sys.exit(77)
+
+from freestand_post import closing  # noqa: E402
 
 
 def remade(group, name, values=None, **how):
@@ -38,7 +41,10 @@ def dataset_faults(values):
     yield "another", lambda group, name: remade(group, name, np.arange(flat.size) if is_text else np.array(["x"] * flat.size, dtype=object))
     yield "group", lambda group, name: (group.__delitem__(name), group.create_group(name))
     yield "itself", lambda group, name: (group.__delitem__(name), group.__setitem__(name, h5py.SoftLink(name)))
+    yield "elsewhere", lambda group, name: (group.__delitem__(name), group.__setitem__(name, h5py.ExternalLink("/dev/zero", "/")))
     if not is_text and flat.size:
+        yield "outside", lambda group, name: remade(group, name, flat, external=[("/dev/zero", 0, flat.nbytes)])
+        yield "large piece", lambda group, name: remade(group, name, flat, maxshape=(None,), chunks=(1 << 14,), compression=1)
         for word, number in (("nan", float("nan")), ("large", 1e300), ("negative", -7.0)):
             yield word, lambda group, name, number=number: remade(group, name, np.full(values.shape, number))
 
@@ -67,6 +73,7 @@ def spoil(source, folder, every):
         try:
             with h5py.File(path, "r+") as file:
                 change(file)
+            closing.close(path)
         except (TypeError, ValueError, OSError, RuntimeError, KeyError):  # h5py itself will not have it
             path.unlink()
             return

@@ -10,7 +10,7 @@ from support import make_results
 
 import h5py
 import numpy as np
-from freestand_post import model, reading, style, words
+from freestand_post import closing, model, reading, style, words
 from freestand_post.problem import Problem
 
 
@@ -89,6 +89,14 @@ class Refuses(Folder):
     def test_text_in_place_of_hdf5(self):
         self.fragility.write_text("not this\n")
         self.refused("fragility.h5 cannot be read as HDF5")
+
+    def test_a_byte_that_has_changed(self):
+        closing.close(self.fragility)
+        whole = self.fragility.read_bytes()
+        self.assertEqual(reading.read_sweep(self.folder).samples, 6000)
+        for at in (0, len(whole) // 2, len(whole) - 69):
+            self.fragility.write_bytes(whole[:at] + bytes([whole[at] ^ 1]) + whole[at + 1:])
+            self.refused("fragility.h5 was damaged")
 
     def test_other_format(self):
         with h5py.File(self.fragility, "a") as root:

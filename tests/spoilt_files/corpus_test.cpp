@@ -65,6 +65,18 @@ TEST(Corpus, SpoiltFilesOfTheProjectAreReadOrRefused) {
   }
 }
 
+// Edits that are drawn, of every result file.
+TEST(Corpus, EditedResultFilesAreReadOrRefused) {
+  std::uint64_t key = 0;
+  for (const Target& target : edited_targets())
+    for (int i = 0; i < 40; ++i) {
+      test::KeyedRandom random(8, ++key);
+      std::string edits(1 + static_cast<std::size_t>(random.unit() * 60), '\0');
+      for (char& byte : edits) byte = static_cast<char>(random.unit() * 256);
+      EXPECT_NO_THROW(target.take(edits)) << target.name << ", edits " << key;
+    }
+}
+
 // Nothing, lines without end, and what begins as HDF5 and is none.
 TEST(Corpus, FilesOfNoKindAreReadOrRefused) {
   const std::string none[] = {"",

@@ -60,15 +60,37 @@ void laboratory_table(std::string_view bytes) {
 }
 
 void fragility_file(std::string_view bytes) {
-  refuses_or_reads([&] { io::read_fragility(written(bytes, "fragility.h5")); });
+  refuses_or_reads([&] {
+    const fragility::Result result = io::read_fragility(written(bytes, "fragility.h5")).result;
+    expect(result.confidence > 0 && result.confidence < 1, "a confidence that is none");
+    expect(result.samples >= 0 && result.outside_im >= 0 && result.motions >= 0 && result.resamples >= 0,
+           "fewer than none");
+    for (const auto* intensities : {&result.im_edge, &result.im, &result.cell_im})
+      for (const double im : *intensities) expect(std::isfinite(im), "an intensity that is no number");
+    for (const fragility::EdpResult& edp : result.edps)
+      for (const double capacity : edp.capacity) expect(std::isfinite(capacity), "a capacity that is no number");
+  });
 }
 
 void tally_file(std::string_view bytes) {
-  refuses_or_reads([&] { io::read_tally(written(bytes, "tally.h5")); });
+  refuses_or_reads([&] {
+    const io::Provenance from = io::read_tally(written(bytes, "tally.h5")).provenance;
+    expect(from.samples >= 0 && from.ranks >= 0, "fewer than none");
+    expect(!from.alike || (*from.alike >= 0 && *from.alike <= from.samples), "more samples alike than there are");
+  });
 }
 
 void database_file(std::string_view bytes) {
-  refuses_or_reads([&] { io::read_database(written(bytes, "database.h5")); });
+  refuses_or_reads([&] {
+    const database::Database db = io::read_database(written(bytes, "database.h5"));
+    expect(db.confidence > 0 && db.confidence < 1, "a confidence that is none");
+    for (const database::Curve& curve : db.curves) {
+      expect(curve.entry < db.entries.size(), "a curve of no entry");
+      expect(std::isfinite(curve.capacity), "a capacity that is no number");
+      for (const database::Point& point : curve.points)
+        expect(std::isfinite(point.im), "an intensity that is no number");
+    }
+  });
 }
 
 // All of its rows, some at a time, as a fit reads them.

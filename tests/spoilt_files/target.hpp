@@ -19,6 +19,7 @@ struct Target {
 const std::vector<Target>& targets();  // all of them
 std::vector<Target> study_targets();
 std::vector<Target> file_targets();
+std::vector<Target> edited_targets();           // of result files, by edits of a good one
 const Target& target(const std::string& name);  // throws std::invalid_argument that lists them
 
 // A file with these bytes, in a folder of this process that the target finds empty but for it; its name as given.

@@ -7,9 +7,10 @@ namespace freestand::spoilt_files {
 
 const std::vector<Target>& targets() {
   static const std::vector<Target> all = [] {
-    std::vector<Target> both = study_targets();
-    for (Target& target : file_targets()) both.push_back(std::move(target));
-    return both;
+    std::vector<Target> all_kinds = study_targets();
+    for (const auto& more : {file_targets(), edited_targets()})
+      all_kinds.insert(all_kinds.end(), more.begin(), more.end());
+    return all_kinds;
   }();
   return all;
 }
