@@ -38,12 +38,12 @@ namespace freestand::decision {
 // simulation (tests/decision/upper_limit_test.cpp, ten bins from 0.05, hazard slope 2.5, tail 0.05, 300 repeats) both over the true rate:
 //
 //   records  median  weak records  upper limit  missed  if P falls  missed
-//   14       0.6     none          34           0.00    1.8         0.10
-//   14       1.5     none          340          0.00    1.9         0.08
-//   14       0.6     one in 20     18           0.00    1.7         0.31
-//   40       0.6     none          13           0.00    1.4         0.08
-//   40       1.5     none          130          0.00    1.4         0.05
-//   40       1.5     one in 20     64           0.00    1.8         0.26
+//   14       0.6     none          49           0.00    1.8         0.12
+//   14       1.5     none          490          0.00    1.8         0.09
+//   14       0.6     one in 20     25           0.00    1.8         0.31
+//   40       0.6     none          19           0.00    1.4         0.09
+//   40       1.5     none          190          0.00    1.4         0.06
+//   40       1.5     one in 20     96           0.00    1.8         0.25
 struct Rate {
   double value = fragility::unknown, lower = fragility::unknown, upper = fragility::unknown;
 };

@@ -1,6 +1,6 @@
 // The last line of a result file, behind HDF5's end of it: "freestand closed this file, crc32 of all before this line 0a1b2c3d".
 //
-// HDF5 leaves alone what follows its own end, and so do h5py, xarray, netCDF-4 and MATLAB. What it reads it takes at its word: of a
+// HDF5 leaves alone what follows its own end, and so do h5py, xarray and netCDF-4. What it reads it takes at its word: of a
 // damaged file it crashes, loops, asks for gigabytes, or returns other numbers. So no reader of ours opens one before its last line
 // has been held against the bytes. That tells damage and changes, not forgery: whoever writes the line anew is believed. The checksum is
 // that of zlib, gzip and PNG, of 3e9 bytes a second.
@@ -11,6 +11,9 @@
 #include <string_view>
 
 namespace freestand::io {
+
+// Is it to be held against the bytes, or has another process of this run done that? (Each would read the whole file.)
+enum class Closing { check, checked };
 
 std::string closing_line(std::string_view bytes);  // of a whole file
 

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/closing_line.hpp"
+
 namespace freestand::io::h5 {
 
 using Id = std::int64_t;
@@ -142,7 +144,7 @@ class File {
   void close();
 
   // An existing file, to read. Any number of processes at once. Throws Error (Exit::data) if it is not what was written.
-  static File open(const std::filesystem::path& path);
+  static File open(const std::filesystem::path& path, Closing = Closing::check);
 
   Group root() const;
   void finish();  // of a file that create() has made

@@ -9,7 +9,6 @@
 #include <system_error>
 
 #include "base/durable_file.hpp"
-#include "io/closing_line.hpp"
 #include "io/h5_internal.hpp"
 
 namespace freestand::io::h5 {
@@ -166,8 +165,8 @@ File File::create_at(const fs::path& aside, const fs::path& path) {
   return File(std::move(state));
 }
 
-File File::open(const fs::path& path) {
-  check_closing_line(path);
+File File::open(const fs::path& path, Closing closing) {
+  if (closing == Closing::check) check_closing_line(path);
   start_library();
   auto state = std::make_unique<State>();
   state->path = path;

@@ -276,8 +276,8 @@ void write_samples(const parallel::Communicator& world, const std::filesystem::p
   });
 }
 
-SampleReader::SampleReader(const std::filesystem::path& path)
-    : file_(std::make_shared<const h5::File>(h5::File::open(path))) {
+SampleReader::SampleReader(const std::filesystem::path& path, Closing closing)
+    : file_(std::make_shared<const h5::File>(h5::File::open(path, closing))) {
   const h5::Group root = file_->root();
   provenance_ = read_provenance(root, samples_format);
   const h5::Group samples = root.open_group("samples");

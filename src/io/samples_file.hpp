@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/table.hpp"
+#include "io/closing_line.hpp"
 #include "io/provenance.hpp"
 #include "parallel/communicator.hpp"
 
@@ -62,7 +63,8 @@ void write_samples(const parallel::Communicator&, const std::filesystem::path& p
 // Reads samples.h5 block by block. Every rank may have its own.
 class SampleReader {
  public:
-  explicit SampleReader(const std::filesystem::path& path);  // Exit::data if it is no such file
+  explicit SampleReader(const std::filesystem::path& path,
+                        Closing = Closing::check);  // Exit::data if it is no such file
 
   std::int64_t rows() const { return rows_; }
   const std::vector<Column>& columns() const { return columns_; }  // `sample` itself is not among them

@@ -31,9 +31,10 @@ bool same_names(const std::vector<Column>& a, const std::vector<Column>& b) {
 
 }  // namespace
 
-EarlierSamples::EarlierSamples(const Study& study, const std::filesystem::path& folder) : folder_(folder) {
+EarlierSamples::EarlierSamples(const Study& study, const std::filesystem::path& folder, io::Closing closing)
+    : folder_(folder) {
   if (!std::filesystem::exists(samples_path(folder))) return;
-  reader_ = std::make_shared<const io::SampleReader>(samples_path(folder));
+  reader_ = std::make_shared<const io::SampleReader>(samples_path(folder), closing);
   const Study swept = parse_stored(reader_->provenance().study, folder);
   const auto wanted = static_cast<std::int64_t>(study.samples);
   if (draws_fingerprint(swept) != draws_fingerprint(study))

@@ -156,8 +156,11 @@ FitSummary fit(const parallel::Communicator& world, RunFolder& into, const FitOp
   const auto so_far = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   std::vector<std::string> written = {"fragility.h5", "bins.csv", "surface.csv", "ranking.csv", "summary.json"};
   if (elsewhere) written.push_back(study_path("").string());
-  world.on_root([&] { io::refuse_others(folder, written); });
-  const io::SampleReader reader(samples_path(options.from));
+  world.on_root([&] {
+    io::refuse_others(folder, written);
+    io::check_closing_line(samples_path(options.from));
+  });
+  const io::SampleReader reader(samples_path(options.from), io::Closing::checked);
   const EditedStudy edited = study_of(world, reader.provenance().study, options);
   const Study& study = edited.study;
   const MotionSummaries motions = motion_summaries(reader.motions());

@@ -37,13 +37,14 @@ fragility::Options group_options(const io::SampleReader& reader, const Study& st
   return options;
 }
 
-std::filesystem::path samples_of(const std::filesystem::path& folder) {
+std::filesystem::path samples_of(const parallel::Communicator& world, const std::filesystem::path& folder) {
   refuse_database(folder);
   if (!std::filesystem::exists(samples_path(folder)) && std::filesystem::exists(folder / "fragility.h5"))
     throw Error(
         fmt::format("{} is a fit without samples (shares are of the samples of a sweep): give the folder of the "
                     "sweep that it was fitted from",
                     folder.string()));
+  world.on_root([&] { io::check_closing_line(samples_path(folder)); });
   return samples_path(folder);
 }
 
@@ -53,7 +54,7 @@ class Shares {
   Shares(const parallel::Communicator& world, const SensitivityOptions& options)
       : world_(world),
         options_(options),
-        reader_(samples_of(options.folder)),
+        reader_(samples_of(world, options.folder), io::Closing::checked),
         rows_(rows_alike(reader_)),
         study_(analysed_study(options.folder, reader_)),
         motions_(group_options(reader_, study_)),

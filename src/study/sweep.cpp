@@ -84,7 +84,7 @@ class Sweep {
         study_(study),
         options_(options),
         folder_(folder),
-        earlier_(study, folder.path()),
+        earlier_(study, folder.path(), io::Closing::checked),
         evaluator_(evaluator_together(world, study, options)),
         target_(study),
         rounds_(world, blocks_path(folder.path()), fingerprint(study) + evaluator_.motions().fingerprint()) {

@@ -65,16 +65,28 @@ TEST(Corpus, SpoiltFilesOfTheProjectAreReadOrRefused) {
   }
 }
 
-// Edits that are drawn, of every result file.
+std::string drawn_edits(std::uint64_t key) {
+  test::KeyedRandom random(8, key);
+  std::string edits(1 + static_cast<std::size_t>(random.unit() * 60), '\0');
+  for (char& byte : edits) byte = static_cast<char>(random.unit() * 256);
+  return edits;
+}
+
+// Of every result file.
 TEST(Corpus, EditedResultFilesAreReadOrRefused) {
   std::uint64_t key = 0;
   for (const Target& target : edited_targets())
-    for (int i = 0; i < 40; ++i) {
-      test::KeyedRandom random(8, ++key);
-      std::string edits(1 + static_cast<std::size_t>(random.unit() * 60), '\0');
-      for (char& byte : edits) byte = static_cast<char>(random.unit() * 256);
-      EXPECT_NO_THROW(target.take(edits)) << target.name << ", edits " << key;
-    }
+    for (int i = 0; i < 40; ++i) EXPECT_NO_THROW(target.take(drawn_edits(++key))) << target.name << ", edits " << key;
+}
+
+// A capacity and an intensity that are no number were taken.
+TEST(Corpus, EditsThatWereOnceTakenAreRefused) {
+  const auto targets = edited_targets();
+  const auto fragility = std::find_if(targets.begin(), targets.end(), [](const Target& target) {
+    return std::string_view(target.name) == "edited_fragility";
+  });
+  ASSERT_NE(fragility, targets.end());
+  for (const std::uint64_t key : {111, 145}) EXPECT_NO_THROW(fragility->take(drawn_edits(key))) << key;
 }
 
 // Nothing, lines without end, and what begins as HDF5 and is none.
