@@ -59,7 +59,8 @@ void tell(const QueryOptions& options) {
   if (std::filesystem::is_directory(file)) file /= io::database_name;
   if (!std::filesystem::exists(file))
     throw Error(fmt::format("{} holds no database (there is no such file): name what `freestand catalogue` has made",
-                            file.string()));
+                            file.string()),
+                Exit::data);
   const database::Database db = io::read_database(file);
   database::Question question = question_of(options);
   if (options.im.empty() && options.demand.empty()) {

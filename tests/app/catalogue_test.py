@@ -319,7 +319,7 @@ class Catalogue(InFolder):
         self.fail_with(2, ask + ["--mu", "0.9"], "mu = 0.9 lies in no grid", "mu 0.2")
         self.fail_with(2, ask[:2] + ["--im", "pga_g=50", "--demand", "overturned"], "too far outside")
         self.fail_with(2, ask[:2] + ["--mu", "0.2"], "--im and --demand are missing", "freestand query")
-        self.fail_with(2, ["query", self.folder / "nowhere"], "nowhere", "holds no database")
+        self.fail_with(3, ["query", self.folder / "nowhere"], "nowhere", "holds no database")
         self.fail_with(3, ["query", self.folder / "db" / "entries" / "fridge" / "fragility.h5"], "is no database", "freestand-fragility")
 
     def test_entries_that_differ_beside_the_coordinates_each_have_an_answer(self):
