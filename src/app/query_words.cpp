@@ -196,6 +196,7 @@ std::string answers_text(const Database& db, const Question& question, const std
       text += fmt::format("  lognormal of median {} and dispersion {}\n",
                           with_unit(std::stod(three_digits(answer.median)), im.unit), three_digits(answer.dispersion));
     for (const std::string& note : answer.notes) text += "  " + note + "\n";
+    if (!answer.between.empty()) text += "  " + answer.between + "\n";
     if (!one_rule) text += "  " + answer.rule + "\n";
   }
   return text + (one_rule ? answers.front().rule + "\n" : "");
@@ -224,6 +225,7 @@ std::string answers_json(const Database& db, const Question& question, const std
     one["extrapolated"] = !answer.notes.empty();
     one["notes"] = answer.notes;
     one["rule"] = answer.rule;
+    one["between_points"] = answer.between;
     one["median"] = number(answer.median);
     one["dispersion"] = number(answer.dispersion);
     json["answers"].push_back(std::move(one));

@@ -160,13 +160,13 @@ std::string between_points(const std::vector<Between>& parts, double im) {
       if (!(change > here.upper - here.lower && change > most)) continue;
       most = change;
       text = fmt::format(
-          "; from {:.3g} to {:.3g} it goes from {:.2g} to {:.2g}, and what it does between them no band holds", a.im,
+          "from {:.3g} to {:.3g} it goes from {:.2g} to {:.2g}, and what it does between them no band holds", a.im,
           b.im, a.probability, b.probability);
     }
   return text;
 }
 
-std::string rule(const std::vector<Between>& parts, double im) {
+std::string rule(const std::vector<Between>& parts) {
   std::size_t all = 0, lognormal = 0;
   for (const Between& part : parts)
     for (const Curve* curve : part.curves) {
@@ -177,13 +177,12 @@ std::string rule(const std::vector<Between>& parts, double im) {
                      : lognormal == 0
                          ? "read by straight lines between the points over the intensity, as exports by levels are"
                          : "read by the lognormal where it is adequate, else by straight lines between the points";
-  text += between_points(parts, im);
   if (all > 1) text += "; between entries and capacities by Phi^-1(P) over logarithms, whose error no band holds";
   return text;
 }
 
 Answer answer(const Database& db, const Question& question, bool binary, GridPoint point) {
-  Answer answer{.parts = {}, .im = {}, .probability = {}, .notes = std::move(point.notes), .rule = {}};
+  Answer answer{.parts = {}, .im = {}, .probability = {}, .notes = std::move(point.notes), .rule = {}, .between = {}};
   std::vector<Between> parts;
   std::vector<double> weights;
   for (const Part& part : point.parts) {
@@ -200,7 +199,8 @@ Answer answer(const Database& db, const Question& question, bool binary, GridPoi
     p.lower = std::min(p.lower, p.value);
     p.upper = std::max(p.upper, p.value);
   }
-  answer.rule = rule(parts, question.im_value);
+  answer.rule = rule(parts);
+  answer.between = between_points(parts, question.im_value);
   answer.parts = std::move(point.parts);
   if (parts.size() == 1 && parts[0].curves.size() == 1 && by_lognormal(*parts[0].curves[0])) {
     answer.median = parts[0].curves[0]->median;
