@@ -269,6 +269,29 @@ TEST(DecideByChance, AFaultOfTheLaboratoryIsNoEffect) {
   EXPECT_NE(d.sentences.at(0).find("the width is 2.0 % smaller than stated"), std::string::npos) << d.sentences.at(0);
 }
 
+// Twins: a floor tilted and friction by direction. What fits leave of a lead has p < 0.0005 where data from either tell them apart as often as
+// chance does.
+TEST(DecideByChance, ALeadThatTellsNothingApartNamesNoneAlone) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  for (const double told_apart : {0.0455, 0.4}) {
+    Questions ask = by_misfit();
+    ask.lead = [&](const Candidate&, const Candidate&) {
+      Chance lead = chance(lead_question, 0.0005);
+      lead.told_apart = told_apart;
+      return lead;
+    };
+    const Diagnosis d = decided_among(
+        bench, {candidate(bench, {"directional_friction"}, 1.1, 1), candidate(bench, {"floor_tilt"}, 1.11, 1.0001)},
+        ask);
+    EXPECT_EQ(d.verdict, told_apart < 0.1 ? Verdict::ambiguous : Verdict::missing) << told_apart;
+    if (told_apart < 0.1) {
+      EXPECT_NE(d.sentences.front().find("floor_tilt imitates directional_friction"), std::string::npos)
+          << d.sentences.front();
+    }
+  }
+}
+
 // A gain at the end of what may be off brought a tether's tests within 1.3 times the noise, and was named.
 TEST(DecideByChance, AFaultThatLeavesMoreThanChanceIsNone) {
   const Dataset data = cabinet_tests();

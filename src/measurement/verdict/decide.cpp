@@ -191,8 +191,11 @@ class Decision {
   // Which of these it was that makes the rival as good.
   std::string why_as_good(const Candidate& best, const Candidate& rival) const {
     const std::string name = joined(rival.effects), other = joined(best.effects);
-    if (const Chance* lead = told_of(lead_question, lead_of(best, rival)); lead && lead->chance())
-      return fmt::format("chance may have put {} behind (p {:.2g})", name, lead->p);
+    const Chance* lead = told_of(lead_question, lead_of(best, rival));
+    if (lead && !lead->apart())
+      return fmt::format("{} imitates {} (such tests tell them apart in {:.2g} % of sets, as chance does)", name, other,
+                         100 * lead->told_apart);
+    if (lead && lead->chance()) return fmt::format("chance may have put {} behind (p {:.2g})", name, lead->p);
     if (is_ahead(rival, best))
       return fmt::format("{} misses the tests left out by less than {}, which fits all tests more closely", name,
                          other);
