@@ -59,9 +59,9 @@ function(freestand_program NAME FOLDER)
   set_target_properties(${NAME} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR})
 endfunction()
 
-# freestand_tests(MODULE [LINKS ...]): tests/MODULE/*.cpp become one GoogleTest program.
+# freestand_tests(MODULE [LINKS ...] [COMPUTES]): tests/MODULE/*.cpp become one GoogleTest program. COMPUTES: see below.
 function(freestand_tests MODULE)
-  cmake_parse_arguments(ARG "" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "" "LINKS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${MODULE}/*.cpp)
   if(NOT sources)
     return()
@@ -69,20 +69,25 @@ function(freestand_tests MODULE)
   freestand_resolve(links ${ARG_LINKS})
   add_executable(test_${MODULE} ${sources})
   target_include_directories(test_${MODULE} PRIVATE ${CMAKE_SOURCE_DIR}/tests)
-  freestand_batches(test_${MODULE} 16)
+  freestand_batches(test_${MODULE} 22)
   target_link_libraries(test_${MODULE} PRIVATE ${links} GTest::gtest_main)
-  freestand_test_program(test_${MODULE})
+  freestand_test_program(test_${MODULE} ${ARG_COMPUTES})
   gtest_discover_tests(test_${MODULE} TEST_PREFIX "${MODULE}: " DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${MODULE})
 endfunction()
 
-# Code that runs once or a few times: what it calls is compiled with -O3, it itself in less time.
-function(freestand_test_code TARGET)
-  target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Release>:-finline-functions>)
+# Code that runs once or a few times: what it calls is compiled with -O3, it itself in less time; with COMPUTES TRUE it has
+# loops of its own that are worth -O1.
+function(freestand_test_code TARGET COMPUTES)
+  if(COMPUTES)
+    target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Release>:-finline-functions>)
+  else()
+    target_compile_options(${TARGET} PRIVATE $<$<CONFIG:Release>:-O0>)
+  endif()
 endfunction()
 
 # The same of GoogleTest programs. With batches the headers that nearly every test includes are read once for all of them.
-function(freestand_test_program TARGET)
-  freestand_test_code(${TARGET})
+function(freestand_test_program TARGET COMPUTES)
+  freestand_test_code(${TARGET} ${COMPUTES})
   target_compile_definitions(${TARGET} PRIVATE
     FREESTAND_DATA_DIR="${FREESTAND_DATA_DIR}" FREESTAND_SOURCE_DIR="${CMAKE_SOURCE_DIR}")
   freestand_resolve(links fmt)
@@ -91,11 +96,12 @@ function(freestand_test_program TARGET)
     return()
   endif()
   target_compile_options(${TARGET} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>)  # for ccache
-  get_property(first GLOBAL PROPERTY FREESTAND_TEST_HEADERS)
+  set(kind FREESTAND_TEST_HEADERS_${COMPUTES})
+  get_property(first GLOBAL PROPERTY ${kind})
   if(first)
     target_precompile_headers(${TARGET} REUSE_FROM ${first})
   else()
-    set_property(GLOBAL PROPERTY FREESTAND_TEST_HEADERS ${TARGET})
+    set_property(GLOBAL PROPERTY ${kind} ${TARGET})
     target_precompile_headers(${TARGET} PRIVATE <gmock/gmock.h> <gtest/gtest.h> <fmt/format.h> <fmt/ranges.h> <algorithm> <cmath> <filesystem>
                               <fstream> <functional> <map> <numbers> <numeric> <optional> <random> <set> <span> <sstream>)
   endif()

@@ -172,14 +172,12 @@ class Rounds(InFolder):
 
     def test_another_wish_begins_its_own_rounds_from_the_first_samples(self):
         """0.02 is reached with fewer samples; the rows of the finished sweep that it does not share are not taken for its own."""
-        out, fresh = self.folder / "out", self.folder / "fresh"
+        out = self.folder / "out"
         loose = self.write("loose.yaml", UNTIL.replace("0.015", "0.03"))
         self.succeed(["run", loose, "-o", out, "--quiet"], 2)
         self.assertLess(json.loads((out / "summary.json").read_text())["until"]["drawn"], self.until["drawn"])
         self.succeed(["run", self.study, "-o", out, "--resume", "--quiet"], 2)
         self.assertEqual(datasets(out / "samples.h5"), datasets(self.out / "samples.h5"))
-        self.succeed(["run", self.study, "-o", fresh, "--quiet"])
-        self.assertEqual(datasets(out / "samples.h5"), datasets(fresh / "samples.h5"))
 
     def test_a_relative_error_is_reached_at_its_least_probability(self):
         wish = "until: {relative_error: 0.2, down_to: 0.01, at_most: 300000}"

@@ -80,7 +80,7 @@ std::vector<double> numbers(const Response& r) {
           double(r.connection_failed), double(r.wall_hits),     r.wall_speed_mps,
           double(r.impacts),           double(r.events),        r.end_time_s};
 }
-bool same_bits(const Response& a, const Response& b) {
+bool same_bits_of_responses(const Response& a, const Response& b) {
   const auto x = numbers(a), y = numbers(b);
   return std::memcmp(x.data(), y.data(), x.size() * sizeof(double)) == 0;
 }
@@ -119,7 +119,7 @@ TEST(PulsesInBlocks, HaveTheBitsOfSingleSamplesWithAnyInstructionSet) {
       EXPECT_EQ(dynamics::respond_and_count(samples.specimens, samples.shakings, settings, block), by_themselves)
           << name;
       for (std::size_t i = 0; i < count; ++i)
-        EXPECT_TRUE(same_bits(block[i], alone[i])) << name << ", sample " << samples.text(i);
+        EXPECT_TRUE(same_bits_of_responses(block[i], alone[i])) << name << ", sample " << samples.text(i);
     }
   }
 }
@@ -141,7 +141,7 @@ TEST(PulsesInBlocks, HistoriesHaveTheBitsOfSingleOnes) {
   std::size_t after = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Response single = respond(samples.specimens[i], samples.shakings[i], settings, &alone[i]);
-    EXPECT_TRUE(same_bits(block[i], single)) << samples.text(i);
+    EXPECT_TRUE(same_bits_of_responses(block[i], single)) << samples.text(i);
     EXPECT_TRUE(same_histories(histories[i], alone[i])) << samples.text(i);
     after += !alone[i].points.empty() && alone[i].points.back().time_s > samples.shakings[i].duration_s();
   }
@@ -265,7 +265,7 @@ TEST(PulsesInBlocks, DoNotDependOnTheirCompany) {
       respond_batch(std::span(samples.specimens).subspan(first, size), std::span(samples.shakings).subspan(first, size),
                     {}, block);
       for (std::size_t i = 0; i < size; ++i)
-        EXPECT_TRUE(same_bits(block[i], alone[first + i]))
+        EXPECT_TRUE(same_bits_of_responses(block[i], alone[first + i]))
             << "in a block of " << size << ", sample " << samples.text(first + i);
     }
 }

@@ -1,8 +1,10 @@
 #include "io/provenance.hpp"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include <cctype>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "support/error_text.hpp"
 #include "support/scratch.hpp"
@@ -12,9 +14,9 @@ namespace {
 
 TEST(Provenance, TellsVersionsHostAndTime) {
   const Provenance here = provenance_here("freestand run x.yaml -o out", 3);
-  EXPECT_TRUE(std::regex_match(here.version, std::regex(R"(\d+\.\d+\.\d+)"))) << here.version;
-  EXPECT_TRUE(std::regex_match(here.git_commit, std::regex("unknown|[0-9a-f]{7,40}(-dirty)?"))) << here.git_commit;
-  EXPECT_TRUE(std::regex_match(here.created_utc, std::regex(R"(\d{4}-\d\d-\d\dT\d\d:\d\d:\d\dZ)"))) << here.created_utc;
+  EXPECT_THAT(here.version, testing::MatchesRegex(R"([0-9]+\.[0-9]+\.[0-9]+)"));
+  EXPECT_THAT(here.git_commit, testing::MatchesRegex("(unknown|[0-9a-f]{7,40}(-dirty)?)"));
+  EXPECT_THAT(here.created_utc, testing::MatchesRegex("[0-9]{4}-[0-9]{2}-[0-9]{2}T[0-9]{2}:[0-9]{2}:[0-9]{2}Z"));
   EXPECT_FALSE(here.compiler.empty());
   EXPECT_FALSE(here.host.empty());
   EXPECT_EQ(here.ranks, 3);

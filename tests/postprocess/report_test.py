@@ -53,13 +53,19 @@ class Page(html.parser.HTMLParser):
         self.addresses += [attributes[key] for key in ("src", "href", "xlink:href", "data") if attributes.get(key)]
 
 
-def small(folder):
-    """A sweep with one demand parameter, no second axis and no samples: quick to draw."""
+def of_one_demand(folder):
+    """A sweep with one demand parameter and no second axis: quick to draw."""
     folder = support.sweep_copy(folder)
-    (folder / "samples.h5").unlink()
     with h5py.File(folder / "fragility.h5", "a") as root:
         del root["edp/peak_rotation_over_alpha"]
         del root["edp/delta/axis"]
+    return folder
+
+
+def small(folder):
+    """The same without samples."""
+    folder = of_one_demand(folder)
+    (folder / "samples.h5").unlink()
     return folder
 
 
@@ -210,7 +216,7 @@ class MissingAndBroken(Temporary):
         self.assertNotIn("coverage", page.ids)
 
     def test_where_few_samples_are_kept_the_page_says_of_which_it_speaks(self):
-        folder = support.sweep_copy(self.folder / "sweep")
+        folder = of_one_demand(self.folder / "sweep")
         with h5py.File(folder / "samples.h5", "a") as root:
             for name in list(root["samples"]):
                 values, attributes = root["samples"][name][:1000], {key: value for key, value in root["samples"][name].attrs.items() if not key.isupper()}
@@ -224,7 +230,7 @@ class MissingAndBroken(Temporary):
 
     def test_where_samples_were_passed_over_draws_are_those_before_them(self):
         """What was integrated later lies in the bins that wanted it: its draws are not those of the study."""
-        folder = support.sweep_copy(self.folder / "sweep")
+        folder = of_one_demand(self.folder / "sweep")
         with h5py.File(folder / "samples.h5", "a") as root:
             root.attrs["samples_alike"] = 2000
             root["samples/outcome"][2000::2] = 6

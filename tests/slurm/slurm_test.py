@@ -35,20 +35,28 @@ class Slurm(InFolder):
         text = self.cluster.run("scontrol", "show", "job", self.job).stdout
         return {key: re.search(rf"\b{key}=(\S+)", text).group(1) for key in ("JobState", "Restarts", "ExitCode")}
 
-    def wait_until(self, true, what, seconds=120):
+    def wait_until(self, true, what, seconds=120, every=0.02):
         deadline = time.monotonic() + seconds
         while not true():
             log = self.log.read_text() if self.log.exists() else ""
             self.assertLess(time.monotonic(), deadline, f"never: {what}\n{self.facts()}\n{log}")
-            time.sleep(0.02)
+            time.sleep(every)
+
+    def wait_for_slurm(self, true, what):
+        """Each question starts a program and is answered by another: asked as often as files are looked at, they take a core."""
+        self.wait_until(true, what, every=0.3)
 
     def ends(self, state, code):
-        self.wait_until(lambda: self.facts()["JobState"] not in ("PENDING", "RUNNING", "COMPLETING"), "the end of the job")
+        self.wait_for_slurm(lambda: self.facts()["JobState"] not in ("PENDING", "RUNNING", "COMPLETING"), "the end of the job")
         facts = self.facts()
         self.assertEqual((facts["JobState"], facts["ExitCode"]), (state, f"{code}:0"), self.log.read_text())
 
     def is_queued_again(self, times):
-        self.wait_until(lambda: self.facts()["Restarts"] == str(times) and self.facts()["JobState"] == "PENDING", f"back in the queue, {times}")
+        def again():
+            facts = self.facts()
+            return (facts["Restarts"], facts["JobState"]) == (str(times), "PENDING")
+
+        self.wait_for_slurm(again, f"back in the queue, {times}")
         self.assertFalse((self.out / "freestand.lock").exists())
 
     def starts_again(self):
@@ -91,7 +99,7 @@ class Slurm(InFolder):
         self.submit(study, "--array=1-2%1", "--open-mode=append")
         self.wait_until(lambda: list(self.out.glob("blocks/run-0001.*.sums")), "counts")
         self.cluster.run("scancel", "--signal=TERM", f"{self.job}_1")
-        self.wait_until(self.nothing_is_queued, "the end of the array")
+        self.wait_for_slurm(self.nothing_is_queued, "the end of the array")
         self.assertIn("the next job of the array goes on", self.log.read_text())
         whole = self.folder / "whole"
         self.succeed(["run", study, "-o", whole, "--quiet"], 3)
@@ -126,7 +134,7 @@ class Slurm(InFolder):
         self.submit(study)
         self.wait_until(lambda: self.blocks() > 2, "blocks")
         self.cluster.run("scancel", self.job)
-        self.wait_until(lambda: self.facts()["JobState"] == "CANCELLED", "the end of the job")
+        self.wait_for_slurm(lambda: self.facts()["JobState"] == "CANCELLED", "the end of the job")
         time.sleep(2)
         self.assertEqual((self.facts()["JobState"], self.facts()["Restarts"]), ("CANCELLED", "0"), self.log.read_text())
 
