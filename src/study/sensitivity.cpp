@@ -37,24 +37,23 @@ fragility::Options group_options(const io::SampleReader& reader, const Study& st
   return options;
 }
 
-std::filesystem::path samples_of(const parallel::Communicator& world, const std::filesystem::path& folder) {
+std::filesystem::path samples_of(const std::filesystem::path& folder) {
   refuse_database(folder);
   if (!std::filesystem::exists(samples_path(folder)) && std::filesystem::exists(folder / "fragility.h5"))
     throw Error(
         fmt::format("{} is a fit without samples (shares are of the samples of a sweep): give the folder of the "
                     "sweep that it was fitted from",
                     folder.string()));
-  world.on_root([&] { io::check_closing_line(samples_path(folder)); });
   return samples_path(folder);
 }
 
 // A finished sweep, and how its samples are told apart.
 class Shares {
  public:
-  Shares(const parallel::Communicator& world, const SensitivityOptions& options)
+  Shares(const parallel::Communicator& world, const SensitivityOptions& options, io::Closing closing)
       : world_(world),
         options_(options),
-        reader_(samples_of(world, options.folder), io::Closing::checked),
+        reader_(samples_of(options.folder), closing),
         rows_(rows_alike(reader_)),
         study_(analysed_study(options.folder, reader_)),
         motions_(group_options(reader_, study_)),
@@ -279,8 +278,8 @@ class Shares {
 }  // namespace
 
 Sensitivity sensitivity(const parallel::Communicator& world, const SensitivityOptions& options) {
-  world.on_root([&] { Shares(world, options); });  // so that what is wrong is told once
-  return Shares(world, options)();
+  world.on_root([&] { Shares(world, options, io::Closing::check); });  // so that what is wrong is told once
+  return Shares(world, options, io::Closing::checked)();
 }
 
 std::string title(const decision::Answer& answer) {
