@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "measurement/fit/starts.hpp"
 
@@ -15,6 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
+constexpr Eigen::Index rows_at_once = 32;                 // so that products of rows and sets stay small
 constexpr std::size_t part = 64;                          // tests a job
 constexpr double middle_step = 0.03, scatter_step = 0.2;  // in the logarithm
 constexpr int polish_budget = 40;
@@ -283,53 +285,62 @@ std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std:
   return range;
 }
 
-template <class Take>
-void TableSearch::sums_of_squares(const MatrixXf& outcomes, const VectorXf& weight, Take&& take) const {
+Index TableSearch::rows_from(Index first) const {
+  return std::clamp<Index>(static_cast<Index>(rows_.size()) - first, 0, rows_at_once);
+}
+
+MatrixXf TableSearch::squares(Index first, const MatrixXf& outcomes, const std::vector<Index>& tests) const {
   using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Index tests = outcomes.rows(), rows = static_cast<Index>(rows_.size());
-  constexpr Index at_once = 256;  // so that products stay small
-  const VectorXf happened = outcomes.transpose() * weight;
-  for (Index first = 0; first < rows; first += at_once) {
-    const Eigen::Map<const Rows> p(probability_.data() + first * tests, std::min(at_once, rows - first), tests);
-    MatrixXf square = -2 * (p * weight.asDiagonal()) * outcomes;
-    square.colwise() += p.cwiseAbs2() * weight;
-    square.rowwise() += happened.transpose();
-    take(first, square);
-  }
+  const Eigen::Map<const Rows> all(probability_.data() + first * outcomes.rows(), rows_from(first), outcomes.rows());
+  const MatrixXf p = all(Eigen::all, tests), y = outcomes(tests, Eigen::all);
+  MatrixXf square = -2 * p * y;
+  square.colwise() += p.rowwise().squaredNorm();
+  square.rowwise() += y.colwise().sum();
+  return square;
 }
 
 VectorXf TableSearch::least_squares(const MatrixXf& outcomes) const {
+  std::vector<Index> tests(static_cast<std::size_t>(outcomes.rows()));
+  std::iota(tests.begin(), tests.end(), 0);
   VectorXf least = VectorXf::Constant(outcomes.cols(), std::numeric_limits<float>::infinity());
-  sums_of_squares(outcomes, VectorXf::Ones(outcomes.rows()), [&](Index, const MatrixXf& square) {
-    least = least.cwiseMin(square.colwise().minCoeff().transpose());
-  });
+  for (Index first = 0; rows_from(first) > 0; first += rows_at_once)
+    least = least.cwiseMin(squares(first, outcomes, tests).colwise().minCoeff().transpose());
   return least;
 }
 
+// The least of all but a fold is sought in what all tests make, less what the fold does.
 VectorXf TableSearch::left_out_squares(const MatrixXf& outcomes) const {
-  const Index tests = outcomes.rows(), sets = outcomes.cols();
-  const auto fold = fold_of(static_cast<std::size_t>(tests));
-  const std::size_t folds = fold.empty() ? 0 : *std::max_element(fold.begin(), fold.end()) + 1;
-  VectorXf sum = VectorXf::Zero(sets);
-  for (std::size_t f = 0; f < folds; ++f) {
-    VectorXf others = VectorXf::Ones(tests);
-    for (Index t = 0; t < tests; ++t) others[t] = fold[static_cast<std::size_t>(t)] == f ? 0 : 1;
-    VectorXf least = VectorXf::Constant(sets, std::numeric_limits<float>::infinity());
-    std::vector<Index> row(static_cast<std::size_t>(sets), 0);
-    sums_of_squares(outcomes, others, [&](Index first, const MatrixXf& square) {
-      for (Index s = 0; s < sets; ++s) {
-        Index best = 0;
-        if (const float found = square.col(s).minCoeff(&best); found < least[s])
-          least[s] = found, row[static_cast<std::size_t>(s)] = first + best;
-      }
-    });
-    for (Index s = 0; s < sets; ++s)
-      for (Index t = 0; t < tests; ++t)
-        if (others[t] == 0) {
-          const auto at = static_cast<std::size_t>(row[static_cast<std::size_t>(s)] * tests + t);
-          sum[s] += std::pow(probability_[at] - outcomes(t, s), 2.0F);
-        }
+  const Index sets = outcomes.cols();
+  std::vector<Index> all(static_cast<std::size_t>(outcomes.rows()));
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<std::vector<Index>> folds;
+  for (const auto fold = fold_of(all.size()); const Index t : all) {
+    const std::size_t f = fold[static_cast<std::size_t>(t)];
+    folds.resize(std::max(folds.size(), f + 1));
+    folds[f].push_back(t);
   }
+  const auto count = static_cast<Index>(folds.size());
+  MatrixXf least = MatrixXf::Constant(count, sets, std::numeric_limits<float>::infinity());
+  Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> row = decltype(row)::Zero(count, sets);
+  for (Index first = 0; rows_from(first) > 0; first += rows_at_once) {
+    const MatrixXf whole = squares(first, outcomes, all);
+    for (Index f = 0; f < count; ++f) {
+      const MatrixXf others = whole - squares(first, outcomes, folds[static_cast<std::size_t>(f)]);
+      const Eigen::RowVectorXf lowest = others.colwise().minCoeff();
+      for (Index s = 0; s < sets; ++s) {
+        if (lowest[s] >= least(f, s)) continue;
+        least(f, s) = others.col(s).minCoeff(&row(f, s));
+        row(f, s) += first;
+      }
+    }
+  }
+  VectorXf sum = VectorXf::Zero(sets);
+  for (Index f = 0; f < count; ++f)
+    for (Index s = 0; s < sets; ++s)
+      for (const Index t : folds[static_cast<std::size_t>(f)]) {
+        const float p = probability_[static_cast<std::size_t>(row(f, s) * outcomes.rows() + t)];
+        sum[s] += (p - outcomes(t, s)) * (p - outcomes(t, s));
+      }
   return sum;
 }
 

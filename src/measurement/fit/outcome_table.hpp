@@ -76,9 +76,10 @@ class TableSearch {
     double middle, scatter;
   };
   Values placed(const Row&) const;
-  // Calls take(first row, sums of squares [row, set]) for some rows at a time, of the tests with a weight of 1.
-  template <class Take>
-  void sums_of_squares(const Eigen::MatrixXf& outcomes, const Eigen::VectorXf& weight, Take&& take) const;
+  // Sums of squares [row, set] of the next rows_at_once rows, over these tests; and how many rows that are.
+  Eigen::MatrixXf squares(Eigen::Index first, const Eigen::MatrixXf& outcomes,
+                          const std::vector<Eigen::Index>& tests) const;
+  Eigen::Index rows_from(Eigen::Index first) const;
   const OutcomeTable& table_;
   std::vector<double> overturned_;  // 0 or 1, of each test
   std::vector<Row> rows_;
