@@ -10,6 +10,7 @@
 #include "motion/record.hpp"
 #include "spoilt_files/target.hpp"
 #include "support/keyed_random.hpp"
+#include "support/repeats.hpp"
 
 namespace freestand::spoilt_files {
 namespace {
@@ -72,11 +73,11 @@ std::string drawn_edits(std::uint64_t key) {
   return edits;
 }
 
-// Of every result file.
+// Of every result file. FREESTAND_REPEATS for more.
 TEST(Corpus, EditedResultFilesAreReadOrRefused) {
   std::uint64_t key = 0;
   for (const Target& target : edited_targets())
-    for (int i = 0; i < 40; ++i) EXPECT_NO_THROW(target.take(drawn_edits(++key))) << target.name << ", edits " << key;
+    for (int i = 0; i < test::repeats_asked(40); ++i) EXPECT_NO_THROW(target.take(drawn_edits(++key))) << target.name << ", edits " << key;
 }
 
 // A capacity and an intensity that are no number were taken.
