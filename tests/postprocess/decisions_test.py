@@ -282,6 +282,7 @@ class Pages(InFolder):
 
     def test_a_risk_stands_alone(self):
         text = self.text(make_decisions.make_risk(self.folder / "risk"))
+        self.assertNotIn("–\u00a0g", text)  # an intensity that is not known has no unit
         self.assertIn("The chance that the specimen is overturned in 50 years is 1.5 %", text)
 
     def test_shares_without_totals_have_no_points(self):

@@ -59,7 +59,7 @@ def make_risk(folder, name="refrigerator", sweep="out", times=1):
     edge = np.geomspace(0.05, 3, 25)
     share = np.diff(stats.norm.cdf(np.log(edge / 0.4) / 0.5)).tolist()
     rows = [row("peak_slip_m", 0.05, 1.2e-2 * times, share), row("peak_slip_m", 0.2, 2.3e-3 * times, share, recommended="counts"),
-            row("peak_slip_m", 0.8, None, [], refused="71 % of the rate may come from intensities outside of the sweep"),
+            row("peak_slip_m", 0.8, None, [], median_im=None, refused="71 % of the rate may come from intensities outside of the sweep"),
             row("overturned", None, 3.1e-4 * times, share)]
     (folder / "risk.json").write_text(json.dumps({
         "format": "freestand-risk/1", "sweep": sweep, "study_name": name, "command": "", "im": "pga_g", "im_unit": "g", "period_s": None,
