@@ -5,6 +5,8 @@ freestand itself reads no file without it. Here a file may lack it: it goes when
 import re
 import zlib
 
+from .problem import Problem
+
 _LINE = re.compile(rb"\nfreestand closed this file, crc32 of all before this line ([0-9a-f]{8})\n\Z")
 _LENGTH = 68
 
@@ -18,6 +20,12 @@ def closed(content):
 def close(path):
     """For files that were changed on purpose."""
     path.write_bytes(closed(path.read_bytes()))
+
+
+def refuse_damaged(path, cure):
+    """Before h5py opens it, which may crash on it, or read other numbers."""
+    if is_damaged(path):
+        raise Problem(f"{path} was damaged, or changed, since freestand closed it (the checksum in its last line is another one): {cure}")
 
 
 def is_damaged(path):

@@ -48,8 +48,7 @@ def _rows(table):
 def read_database(folder):
     path = folder / NAME
     try:
-        if closing.is_damaged(path):
-            raise Problem(f"{path} was damaged, or changed, since freestand closed it (the checksum in its last line is another one): build it again")
+        closing.refuse_damaged(path, "build it again")
         with h5py.File(path) as root:
             if root.attrs.get("format") != FORMAT:
                 raise Problem(f"{path} cannot be used (its format is \"{root.attrs.get('format', '')}\", not \"{FORMAT}\"): build the database again")

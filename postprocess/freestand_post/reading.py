@@ -147,9 +147,7 @@ def existing_folder(path):
 
 def _open(path, form):
     try:
-        if closing.is_damaged(path):  # h5py may crash on it, or read other numbers
-            raise Problem(f"{path} was damaged, or changed, since freestand closed it (the checksum in its last line is another one): "
-                          "make it again")
+        closing.refuse_damaged(path, "make it again")
         root = h5py.File(path, "r")
     except OSError as why:
         raise Problem(f"{path} cannot be read as HDF5 ({_first_line(why)}): it is truncated, still being written or no "

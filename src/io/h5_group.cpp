@@ -44,10 +44,6 @@ herr_t collect_name(hid_t, const char* name, const H5L_info_t*, void* into) {
   return 0;
 }
 
-}  // namespace
-
-namespace {
-
 // A link to another file may lead to a device that never ends, and one within this file is none that freestand writes.
 void expect_no_link(Id group, const std::string& name, const std::string& file) {
   H5L_info_t info;

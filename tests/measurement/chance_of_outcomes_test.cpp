@@ -32,7 +32,7 @@ FittedToOutcomes fitted_to_outcomes(const Bench& bench, const std::vector<std::s
 Chance gain_of_any(const Bench& bench, const FittedToOutcomes& all) {
   std::vector<const TabulatedFit*> tried;
   for (const TabulatedFit& one : all.with) tried.push_back(&one);
-  return chance_of_gain_of_outcomes(bench, all.base, tried, run_here);
+  return chance_of_gain_of_outcomes(gains_of_outcomes(bench, all.base, tried, run_here));
 }
 
 // A set of outcomes is fitted by the row of least squares, whichever way these are summed.

@@ -1,8 +1,5 @@
 #include "measurement/verdict/chance_of_outcomes.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "base/random.hpp"
 
 namespace freestand::measurement {
@@ -43,19 +40,25 @@ VectorXf leads(const Bench& bench, const TabulatedFit& best, const TabulatedFit&
 
 }  // namespace
 
-Chance chance_of_gain_of_outcomes(const Bench& bench, const TabulatedFit& base,
-                                  const std::vector<const TabulatedFit*>& tried, const Jobs& jobs) {
+std::vector<VectorXf> gains_of_outcomes(const Bench& bench, const TabulatedFit& base,
+                                        const std::vector<const TabulatedFit*>& tried, const Jobs& jobs) {
   const MatrixXf y = outcomes_from(bench, base, 24);
   const VectorXf without = scores_left_out(bench, base, y);
   const auto answers = jobs("what effects gain in outcomes from the base", tried.size(), [&](std::size_t i) {
     const VectorXf with = scores_left_out(bench, *tried[i], y);
     return Values(with.begin(), with.end());
   });
-  VectorXf gains = VectorXf::Constant(without.size(), -std::numeric_limits<float>::infinity());
+  std::vector<VectorXf> gains;
   for (const Values& with : answers)
-    gains = gains.cwiseMax(without - Eigen::Map<const Eigen::VectorXd>(with.data(), without.size()).cast<float>());
-  Chance chance{.question = help_question, .about = {}, .observed = gains[0]};
-  weigh(chance, in_simulations(gains));
+    gains.emplace_back(without - Eigen::Map<const Eigen::VectorXd>(with.data(), without.size()).cast<float>());
+  return gains;
+}
+
+Chance chance_of_gain_of_outcomes(const std::vector<VectorXf>& gains) {
+  VectorXf largest = gains.front();
+  for (const VectorXf& gain : gains) largest = largest.cwiseMax(gain);
+  Chance chance{.question = help_question, .about = {}, .observed = largest[0]};
+  weigh(chance, in_simulations(largest));
   return chance;
 }
 

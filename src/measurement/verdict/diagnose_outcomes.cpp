@@ -113,17 +113,27 @@ class OutcomeDiagnoser {
   // The best candidate of one effect more, if the tests left out are missed by less with it, and any such effect gains more than chance.
   const Candidate* accepted(const Candidate& without) {
     const Candidate* best = nullptr;
-    std::vector<const TabulatedFit*> tried;
-    for (const Candidate& c : out_.candidates) {
-      if (!is_rankable(c, without.effects.size() + 1)) continue;
-      tried.push_back(&table_of(c));
-      if (!best || left_out(c) < left_out(*best)) best = &c;
+    std::vector<const Candidate*> tried;
+    std::vector<const TabulatedFit*> tables;
+    for (const Candidate& c : out_.candidates)
+      if (c.fit.left_out_refitted && c.effects.size() == without.effects.size() + 1) {
+        tried.push_back(&c);
+        tables.push_back(&table_of(c));
+      }
+    auto gains = gains_of_outcomes(bench_, table_of(without), tables, jobs_);
+    std::vector<Eigen::VectorXf> of_practical;
+    for (std::size_t i = 0; i < tried.size(); ++i) {
+      if (is_rankable(*tried[i], tried[i]->effects.size())) {
+        of_practical.push_back(gains[i]);
+        if (!best || left_out(*tried[i]) < left_out(*best)) best = tried[i];
+      }
+      gains_[tried[i]->effects] = std::move(gains[i]);
     }
     if (!best) return nullptr;
-    Chance chance = chance_of_gain_of_outcomes(bench_, table_of(without), tried, jobs_);
+    Chance chance = chance_of_gain_of_outcomes(of_practical);
     if (!without.effects.empty()) chance.question = another_question;
-    const bool gained = !is_chance(std::move(chance),
-                                   without.effects.empty() ? fmt::format("{} effects", tried.size()) : label(without));
+    const bool gained = !is_chance(
+        std::move(chance), without.effects.empty() ? fmt::format("{} effects", of_practical.size()) : label(without));
     return gained && left_out(*best) < left_out(without) ? best : nullptr;
   }
 
@@ -225,7 +235,7 @@ class OutcomeDiagnoser {
         continue;
       }
       const Pooled gain = paired_difference(out_.base.fit.left_out, c.fit.left_out);
-      const Chance alone = chance_of_gain_of_outcomes(bench_, base_, {&table_of(c)}, jobs_);
+      const Chance alone = chance_of_gain_of_outcomes({gains_.at(c.effects)});
       say(fmt::format(
           "{} {} the left-out Brier score of the base by {:.4f} +- {:.4f} (were it the only effect tried, "
           "outcomes from the base would give it as much in a share of {:.2g})",
@@ -244,7 +254,8 @@ class OutcomeDiagnoser {
   const Jobs& jobs_;
   std::size_t tests_;
   TabulatedFit base_;
-  std::map<std::vector<std::string>, TabulatedFit> tables_;  // of what was fitted to the end
+  std::map<std::vector<std::string>, TabulatedFit> tables_;    // of what was fitted to the end
+  std::map<std::vector<std::string>, Eigen::VectorXf> gains_;  // of the same, over what they were joined to
   std::vector<std::string> untried_;
   Diagnosis out_;
 };
