@@ -25,6 +25,8 @@ using io::h5::Handle;
 
 constexpr ssize_t most_image = 1 << 20;
 constexpr std::size_t most_bytes = 1 << 16;  // that an edit writes; what is to hold more is left without values
+constexpr double most_attribute =
+    60'000;  // bytes: HDF5 refuses what is larger, and crashes where it then deletes another
 
 // What is left of the input; behind its end zeros.
 class Input {
@@ -190,6 +192,10 @@ void fill(Input& input, hid_t type, hssize_t count, const WriteValues& write) {
 void write_attribute(hid_t object, const char* name, Input& input) {
   const Handle type = some_type(input);
   const Shape shape = some_shape(input);
+  if (static_cast<double>(H5Sget_simple_extent_npoints(shape.space.id())) *
+          static_cast<double>(H5Tget_size(type.id())) >
+      most_attribute)
+    return;
   H5Adelete(object, name);
   const Handle made(H5Acreate2(object, name, type.id(), shape.space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   if (made.id() >= 0)
