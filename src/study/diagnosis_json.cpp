@@ -284,12 +284,14 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
   for (const Channel channel : {Channel::slip, Channel::rotation}) {
     const Sensor& s = bench.sensor(channel);
     if (bench.noise(channel) > 0)
-      json["sensors"][name(channel)] = {{"white", s.white},
-                                        {"coloured", s.coloured},
-                                        {"correlation_s", s.correlation_s},
-                                        {"drift_per_s", s.drift_per_s},
-                                        {"size_error_ln", s.size_error},
-                                        {"quiet_s", s.quiet_s}};
+      json["sensors"][name(channel)] = {
+          {"white", s.white},
+          {"coloured", s.coloured},
+          {"correlation_s", s.correlation_s},
+          {"drift_per_s", s.drift_per_s},
+          {"size_error_ln", s.size_error},
+          {"slow_power_90", s.slow_powers.empty() ? Json(nullptr) : Json{s.slow_powers[2], s.slow_powers[47]}},
+          {"quiet_s", s.quiet_s}};
   }
   json["friction_scatter"] = d.own_friction ? Json{{"standard_deviation_ln", d.own_friction->scatter},
                                                    {"factors", d.own_friction->of_tests},

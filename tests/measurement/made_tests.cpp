@@ -55,11 +55,19 @@ measurement::Dataset made_dataset(const Specimen& specimen, double noise, const 
   return data;
 }
 
-measurement::Dataset with_noise(measurement::Dataset data, std::uint64_t key) {
+measurement::Dataset with_noise(measurement::Dataset data, std::uint64_t key, double correlation_s) {
   KeyedRandom random(9, key);
+  const auto add = [&](std::vector<double>& samples, double deviation, double dt_s) {
+    const double kept = correlation_s > 0 ? std::exp(-dt_s / correlation_s) : 0;
+    double noise = random.normal();
+    for (double& sample : samples) {
+      sample += deviation * noise;
+      noise = kept * noise + std::sqrt(1 - kept * kept) * random.normal();
+    }
+  };
   for (measurement::Test& t : data.tests) {
-    for (double& s : t.slip_m) s += data.noise.slip_m * random.normal();
-    for (double& r : t.rotation_rad) r += data.noise.rotation_rad * random.normal();
+    add(t.slip_m, data.noise.slip_m, t.dt_s);
+    add(t.rotation_rad, data.noise.rotation_rad, t.dt_s);
   }
   return data;
 }

@@ -23,8 +23,8 @@ measurement::Test made_test(const std::string& id, const Specimen&, const FloorM
 // Four tests for calibration and one held out, of different strengths and periods. friction: factors, of each test.
 measurement::Dataset made_dataset(const Specimen&, double noise = 1, const std::vector<double>& friction = {});
 
-// The sensors' noise added, of that key.
-measurement::Dataset with_noise(measurement::Dataset, std::uint64_t key);
+// The sensors' noise added, of that key; white, or correlated over that time.
+measurement::Dataset with_noise(measurement::Dataset, std::uint64_t key, double correlation_s = 0);
 
 // A cabinet that slides, with an effect or none.
 Specimen cabinet(const char* effect = nullptr, std::vector<double> parameters = {});

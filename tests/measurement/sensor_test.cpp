@@ -95,6 +95,45 @@ TEST(Sensor, WhitensItsOwnNoise) {
   EXPECT_EQ(same, (std::vector<double>{3, -2, 5}));
 }
 
+// Of random weights w and series e: (T w) e = w (T^T e), and the variance of w c is that of the coloured noise c by its correlation.
+TEST(Sensor, TransposesSayTheSameOfSums) {
+  const Sensor sensor{.white = 0.4, .coloured = 1.5, .correlation_s = 0.1};
+  constexpr std::size_t n = 60;
+  test::KeyedRandom random(2, 1);
+  std::vector<double> series, weights;
+  for (std::size_t i = 0; i < n; ++i) series.push_back(random.normal()), weights.push_back(random.normal());
+  std::vector<double> whitened = series, back = weights, parts = weights;
+  sensor.whiten(whitened.data(), n, dt_s);
+  sensor.whiten_transposed(back.data(), n, dt_s);
+  EXPECT_NEAR(std::inner_product(whitened.begin(), whitened.end(), weights.begin(), 0.0),
+              std::inner_product(series.begin(), series.end(), back.begin(), 0.0), 1e-12);
+  sensor.colour_transposed(parts.data(), n, dt_s);
+  double variance = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < n; ++j)
+      variance += 1.5 * 1.5 * weights[i] * weights[j] *
+                  std::exp(-std::abs(static_cast<double>(i) - static_cast<double>(j)) * dt_s / 0.1);
+  EXPECT_NEAR(std::inner_product(parts.begin(), parts.end(), parts.begin(), 0.0), variance, 1e-11 * variance);
+}
+
+// The true power of slow noise lies anywhere among the values that are called equally likely.
+TEST(Sensor, SlowNoiseMayBeWhatItIs) {
+  const int sets = test::repeats_asked(20);
+  int below = 0, above = 0, outside = 0;
+  for (std::uint64_t key = 1; key <= static_cast<std::uint64_t>(sets); ++key) {
+    const Sensor found = sensor_of(set_of(500 + key, 0.3, 1, 0.3));
+    const double truth = 0.3 / (found.coloured * found.coloured * found.correlation_s);
+    const auto& may_be = found.slow_powers;
+    ASSERT_EQ(may_be.size(), 50);
+    below += truth<may_be[12], above += truth> may_be[37];
+    outside += truth < may_be[2] || truth > may_be[47];
+  }
+  for (const auto& [count, share] : {std::pair(below, 0.25), std::pair(above, 0.25), std::pair(outside, 0.1)}) {
+    EXPECT_LE(count, test::likely_counts(sets, share).most) << share;
+    EXPECT_GE(count, test::likely_counts(sets, share).least) << share;
+  }
+}
+
 TEST(Sensor, IsReadOffWhereTheBlockStands) {
   Specimen cabinet;
   cabinet.block = Block::rectangular(0.8, 0.6, 100);

@@ -85,7 +85,8 @@ struct Judge::Parts {
   std::vector<Eigen::Index> replays;  // how many of them are of replays
   std::vector<Inner> inner;
   std::vector<Eigen::MatrixXd> root;            // C^-1/2 = 1 + A root A^T
-  std::vector<std::vector<Eigen::Index>> kept;  // of all samples
+  std::vector<Eigen::Index> rows;               // how many samples
+  std::vector<std::vector<Eigen::Index>> kept;  // of these
 };
 
 Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs, double limit,
@@ -144,6 +145,7 @@ void Judge::take(const std::vector<Values>& columns, double limit, bool own_fric
     parts->root.push_back(root_part(gram));
     allowed_.push_back(gram.size() ? gram.trace() - parts->inner.back().solve(gram * gram).trace() : 0);
     parts->A.push_back(std::move(A));
+    parts->rows.push_back(rows);
     parts->kept.push_back(std::move(kept));
   }
   parts_ = std::move(parts);
@@ -200,9 +202,9 @@ Eigen::VectorXd Judge::against(std::size_t i, const Eigen::MatrixXd& M, const Ei
 Judge::Products Judge::products(std::size_t i, const Eigen::MatrixXd& M) const {
   const Eigen::MatrixXd& A = parts_->A[i];
   const Eigen::MatrixXd square = M.transpose() * M;
-  if (A.cols() == 0) return {square, square, Eigen::MatrixXd(M.cols(), 0)};
+  if (A.cols() == 0) return {square, square, Eigen::MatrixXd(M.cols(), 0), slow(i, M)};
   const Eigen::MatrixXd N = A.transpose() * M, gram = A.transpose() * A, solved = parts_->inner[i].solve(N);
-  Products p{square - N.transpose() * solved, {}, {}};
+  Products p{square - N.transpose() * solved, {}, {}, slow(i, M - A * solved)};
   // With V = C^-1 M: of white noise V^T V, of friction and drifts V^T B B^T V.
   const Eigen::Index replays = parts_->replays[i], drifts = A.cols() - replays;
   const Eigen::MatrixXd cross = N - gram * solved;  // A^T V
@@ -224,6 +226,34 @@ Judge::Products Judge::products(std::size_t i, const Eigen::MatrixXd& M) const {
                                        (scale.asDiagonal() * N(others, Eigen::all)).transpose() * inner_of(G).solve(b));
   }
   return p;
+}
+
+// Of sums over the sensors' independent numbers. Noise that enters a sample enters the numbers behind it as well: these weights give those of
+// samples, and they those of what the coloured noise is made of (sensor.hpp).
+Eigen::MatrixXd Judge::slow(std::size_t i, const Eigen::MatrixXd& weights) const {
+  const double dt_s = test(i).dt_s;
+  Eigen::MatrixXd added(0, 0);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(parts_->rows[i], weights.cols());  // also of samples that are left out
+  all(parts_->kept[i], Eigen::all) = weights;
+  Eigen::Index from = 0;
+  for (int c = 0; c < channel_count; ++c) {
+    const auto channel = static_cast<Channel>(c);
+    const std::size_t count = bench_.noise(channel) > 0 ? history(test(i), channel).size() : 0;
+    const Sensor& sensor = bench_.sensor(channel);
+    const auto rows = static_cast<Eigen::Index>(count);
+    if (count > 0 && !sensor.slow_powers.empty()) {
+      Eigen::MatrixXd known = all.middleRows(from, rows);
+      for (auto column : known.colwise()) sensor.whiten_transposed(column.data(), count, dt_s);
+      Eigen::MatrixXd more = known;
+      for (auto column : known.colwise()) sensor.colour_transposed(column.data(), count, dt_s);
+      const Sensor other = sensor.with_slow_power(more_slow_power);
+      for (auto column : more.colwise()) other.colour_transposed(column.data(), count, dt_s);
+      if (added.size() == 0) added.setZero(weights.cols(), weights.cols());
+      added += more.transpose() * more - known.transpose() * known;
+    }
+    from += rows;
+  }
+  return added;
 }
 
 std::vector<double> Judge::whitened(std::size_t i, const Prediction& prediction) const {

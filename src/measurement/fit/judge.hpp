@@ -18,6 +18,9 @@ namespace freestand::measurement {
 // [noise units] Where the floor's noise moves a history by more, replays that take the other way are as likely as not.
 inline constexpr double fanned_out = 5;
 
+// Times the power of slow noise that a sensor is said to have: as much as it may have, so that what lies between is near to a straight line.
+inline constexpr double more_slow_power = 4;
+
 inline constexpr double every_sample = 1e9;  // no limit
 
 class Judge {
@@ -46,6 +49,7 @@ class Judge {
     Eigen::MatrixXd gram;        // M^T C^-1 M
     Eigen::MatrixXd covariance;  // of M^T C^-1 e, e being the sensors' noise
     Eigen::MatrixXd replays;     // M^T C^-1 a, one column for each replay's change a, C being that of the others
+    Eigen::MatrixXd slow;        // by how much the covariance grows with more_slow_power; empty where noise is white
   };
   Products products(std::size_t i, const Eigen::MatrixXd& columns) const;
   // M^T C^-1 r.
@@ -72,6 +76,7 @@ class Judge {
   // columns: those of replays, then one of the test's own friction, if any.
   void take(const std::vector<Values>& columns, double limit, bool own_friction = false);
   Eigen::MatrixXd drifts(const Test&) const;
+  Eigen::MatrixXd slow(std::size_t i, const Eigen::MatrixXd& weights) const;
   std::vector<double> misfit(const ModelSpec&, const std::function<Values(std::size_t i)>& x) const;
   const Bench& bench_;
   std::vector<std::size_t> tests_;

@@ -24,7 +24,7 @@ double standard_normal(std::uint64_t sample, std::uint64_t i) { return random::s
 
 // Products of all tests' columns, which processes share test by test.
 struct Summed {
-  MatrixXd gram, covariance;
+  MatrixXd gram, covariance, slow;
   std::vector<MatrixXd> replays;  // of each test
   VectorXd against;               // the residual
 };
@@ -38,10 +38,11 @@ Summed sum_of(const char* what, std::size_t tests, Index q, const Judge& judge, 
     const VectorXd against = judge.against(i, M, r);
     Values all;
     const auto add = [&](const auto& part) { all.insert(all.end(), part.data(), part.data() + part.size()); };
-    add(p.gram), add(p.covariance), add(against), add(p.replays);
+    add(p.gram), add(p.covariance), add(against), add(Values{p.slow.size() > 0 ? 1.0 : 0.0}), add(p.slow),
+        add(p.replays);
     return all;
   });
-  Summed sum{MatrixXd::Zero(q, q), MatrixXd::Zero(q, q), {}, VectorXd::Zero(q)};
+  Summed sum{MatrixXd::Zero(q, q), MatrixXd::Zero(q, q), MatrixXd::Zero(q, q), {}, VectorXd::Zero(q)};
   for (const Values& all : answers) {
     const double* at = all.data();
     const auto take = [&](Index rows, Index cols) {
@@ -52,41 +53,66 @@ Summed sum_of(const char* what, std::size_t tests, Index q, const Judge& judge, 
     sum.gram += take(q, q);
     sum.covariance += take(q, q);
     sum.against += take(q, 1);
+    if (take(1, 1).value() > 0) sum.slow += take(q, q);
     sum.replays.emplace_back(take(q, (static_cast<Index>(all.size()) - (at - all.data())) / q));
   }
   return sum;
 }
 
-// What noise alone makes of the columns' products, one draw after the other.
+// How well the noise is known: as well as the sensor says of which that is said least.
+struct NoiseKnown {
+  double size_error = 0;
+  std::vector<double> slow_powers;
+  explicit NoiseKnown(const Bench& bench) {
+    for (int c = 0; c < channel_count; ++c) {
+      const Sensor& sensor = bench.sensor(static_cast<Channel>(c));
+      size_error = std::max(size_error, sensor.size_error);
+      if (spread(sensor.slow_powers) > spread(slow_powers)) slow_powers = sensor.slow_powers;
+    }
+  }
+  static double spread(const std::vector<double>& ascending) {
+    return ascending.empty() ? 0 : ascending.back() / ascending.front();
+  }
+};
+
+// What noise alone makes of the columns' products, one draw after the other. Their covariance is S + g D, D being what more_slow_power adds to
+// it, g the share of that more: with S = R R^T it is R U (1 + g L) U^T R^T, where U L U^T = R^-1 D R^-T.
 class NoiseDraws {
  public:
-  NoiseDraws(const Summed& sum, double size_error) : sum_(sum), size_error_(size_error) {
+  NoiseDraws(const Summed& sum, const Bench& bench) : sum_(sum), known_(bench) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.covariance);
     root_ = solved.eigenvectors() * solved.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+    if (known_.slow_powers.empty()) return;
+    const double least = 1e-10 * solved.eigenvalues().maxCoeff();
+    const VectorXd inverse =
+        solved.eigenvalues().unaryExpr([&](double l) { return l > least ? 1 / std::sqrt(l) : 0.0; });
+    const MatrixXd back = solved.eigenvectors() * inverse.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> grown(back.transpose() * sum.slow * back);
+    root_ *= grown.eigenvectors();
+    growth_ = grown.eigenvalues();
   }
   VectorXd draw(std::uint64_t s) const {
     VectorXd z(root_.cols());
     for (Index k = 0; k < z.size(); ++k) z[k] = standard_normal(s, static_cast<std::uint64_t>(k));
+    if (const auto& powers = known_.slow_powers; !powers.empty()) {
+      const double power = powers[random::bits(23, s, 0).first % powers.size()];
+      z.array() *= (1 + (power - 1) / (more_slow_power - 1) * growth_.array()).max(0).sqrt();
+    }
     z = root_ * z;
     for (std::size_t i = 0; i < sum_.replays.size(); ++i) {
       if (sum_.replays[i].cols() == 0) continue;
       const auto [a, b] = random::bits(21, s, i);
       z += sum_.replays[i].col(static_cast<Index>(a % static_cast<std::uint64_t>(sum_.replays[i].cols())));
     }
-    return std::exp(size_error_ * standard_normal(s, 1ULL << 40)) * z;
+    return std::exp(known_.size_error * standard_normal(s, 1ULL << 40)) * z;
   }
 
  private:
   const Summed& sum_;
-  double size_error_;
+  NoiseKnown known_;
   MatrixXd root_;
+  VectorXd growth_;
 };
-
-double size_error(const Bench& bench) {
-  double largest = 0;
-  for (int c = 0; c < channel_count; ++c) largest = std::max(largest, bench.sensor(static_cast<Channel>(c)).size_error);
-  return largest;
-}
 
 // Of the model's own numbers: a refit in them lowers G by z^T gram^-1 z.
 class Own {
@@ -155,7 +181,7 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
   VectorXd measured = sum.against;
   measured.segment(p - deviate, deviate) -= deviations(known);
   Chance chance{.question = help_question, .about = {}, .observed = largest_gain(measured)};
-  const NoiseDraws noise(sum, size_error(bench));
+  const NoiseDraws noise(sum, bench);
   weigh(chance, [&](std::uint64_t s) {
     VectorXd z = noise.draw(s);
     for (Index d = 0; d < deviate; ++d)
@@ -186,7 +212,7 @@ void weigh_power(Chance& chance, const std::function<double(std::uint64_t)>& dra
 // fit, others into what C allows for; instead, a replay adds what it shows to the others.
 Chance chance_of_misfit(const Bench& bench, const Judge& judge, const ModelFit& fit, double misfit_of_fit) {
   Chance chance{.question = misfit_question, .about = {}, .observed = misfit_of_fit};
-  const double size = size_error(bench);
+  const double size = NoiseKnown(bench).size_error;
   weigh(chance, [&](std::uint64_t s) {
     double sum = -static_cast<double>(fit.x.size());
     for (std::size_t i = 0; i < judge.samples().size(); ++i) {
@@ -227,7 +253,7 @@ Chance chance_of_lead(const Bench& bench, const Judge& judge, const ModelFit& be
   const VectorXd measured = sum.against - sum.gram.col(q - 1);
   // Both were fitted to them already; a rival at the end of its range would gain beyond it.
   chance.observed = -2 * measured[q - 1] - difference;
-  const NoiseDraws noise(sum, size_error(bench));
+  const NoiseDraws noise(sum, bench);
   weigh(chance, [&](std::uint64_t s) { return lead(noise.draw(s)); });
   // Data from the best lie by e from it.
   weigh_power(chance, [&](std::uint64_t s) {
