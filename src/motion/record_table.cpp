@@ -27,9 +27,9 @@ constexpr std::string_view own_columns[] = {
     "file",     "folder", "suite",   "dt_s",        "unit",       "format",     "channel",        "group", "component",
     "vertical", "event",  "station", "azimuth_deg", "strike_deg", "pulse_type", "pulse_period_s", "cross", "weight"};
 // First words of columns that no scaling of the record changes, whatever their unit; their units are not those of shaking.
-constexpr std::string_view properties[] = {"magnitude", "mw",       "distance",  "depth",  "vs30",
-                                           "elevation", "duration", "rjb",       "rrup",   "rhypo",
-                                           "repi",      "latitude", "longitude", "period", "bandwidth"};
+constexpr std::string_view properties[] = {"magnitude", "mw",     "distance",  "depth",   "vs30", "elevation",
+                                           "duration",  "rjb",    "rrup",      "rhypo",   "repi", "latitude",
+                                           "longitude", "period", "bandwidth", "building"};
 // Units of accelerations, velocities and displacements, which go with L T^time at another scale.
 struct Amplitudes {
   int time;

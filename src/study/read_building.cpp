@@ -161,7 +161,7 @@ void read_building(Section& section, MotionSource& source, const std::filesystem
   if (source.building && source.building->drawn_period)
     source.numbers.push_back(motion::record_number("building_period_s").value());
   if (source.building && source.building->drawn_damping)
-    source.numbers.push_back({.name = "building_damping", .unit = "1", .power = 0});
+    source.numbers.push_back(motion::record_number("building_damping").value());
   if (source.building && source.storey && section.problems().count() == before) check_storeys(section, source);
 }
 

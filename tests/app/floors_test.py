@@ -91,6 +91,22 @@ class Floors(InFolder):
         self.assertIn("motion.storey", shares)
         self.assertRegex(shares, r"(?m)(^|,)motion,")  # the record, whatever the storey
 
+    def test_what_is_drawn_of_a_building_stands_in_every_file(self):
+        """Period and damping, one of each for a record; they are properties of it, on which what an intensity leaves may depend."""
+        drawn = "building: {storeys: 4, period_s: {uniform: [0.3, 0.8]}, damping: {uniform: [0.02, 0.07]}}"
+        out = self.folder / "out"
+        self.succeed(["run", self.write("study.yaml", STUDY.replace("building: museum.yaml", drawn)), "-o", out, "--quiet"], 2)
+        with h5py.File(out / "samples.h5") as file:
+            of_ground = file["motions/ground"][()]
+            for name, unit, low, high in (("period_s", "s", 0.3, 0.8), ("damping", "1", 0.02, 0.07)):
+                numbers = file[f"motions/record_building_{name}"]
+                self.assertEqual(numbers.attrs["unit"], unit)
+                self.assertEqual(len(set(numbers[()])), 6)
+                self.assertTrue((numbers[()] == numbers[()][of_ground]).all())
+                self.assertTrue(low <= min(numbers[()]) and max(numbers[()]) <= high, name)
+        ranking = json.loads((out / "summary.json").read_text())["ranking"]
+        self.assertIn("record_building_damping", json.dumps(ranking))
+
 
 if __name__ == "__main__":
     unittest.main()
