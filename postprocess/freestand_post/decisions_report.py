@@ -3,7 +3,7 @@ import math
 import pathlib
 
 from . import best_intensity, words
-from .designs import ratio, shown_median, verdict, warnings
+from .designs import ratio, shown_half, shown_median, verdict, warnings
 from .halved import halving
 from .pictures import designs as designs_picture
 from .reading_decisions import Risk, Sensitivity
@@ -159,7 +159,15 @@ def _headline(found):
     row = next((row for row in found.rows if all(math.isfinite(curve["median"]) for curve in row.curves)), None)
     if row is None:
         return []
-    return [(shown_median(sweep, curve), f"median {found.im_symbol} of {row.what}: {label}") for sweep, curve, label in zip(found.sweeps, row.curves, found.labels)]
+    return [(shown_median(sweep, curve), f"median {found.im_symbol} of {row.what}{'' if curve['adequate'] else ', counted'}: {label}")
+            for sweep, curve, label in zip(found.sweeps, row.curves, found.labels)]
+
+
+def _mark(ratio, *curves):
+    """Of a ratio of medians: not all of which are swept, or are those of curves that hold."""
+    if not math.isfinite(ratio):
+        return ""
+    return "†" if not all(curve["adequate"] for curve in curves) else "*" if any(curve["extrapolated"] for curve in curves) else ""
 
 
 def _medians(found):
@@ -169,9 +177,9 @@ def _medians(found):
             mark = ("*" if curve["extrapolated"] else "") + ("" if curve["adequate"] or not math.isfinite(curve["median"]) else "†")
             value, low, high = row.ratio[i]
             rows.append({"what": words.capitalised(row.what) if i == 0 else "", "design": label,
-                         "median": words.plus_minus(curve["median"], curve["median_se"]) + mark,
+                         "median": words.plus_minus(curve["median"], curve["median_se"]) + mark, "counted": shown_half(curve),
                          "dispersion": words.plus_minus(curve["dispersion"], curve["dispersion_se"]),
-                         "ratio": "" if i == 0 else words.fixed(value, 2) + ("*" if math.isfinite(value) and (curve["extrapolated"] or row.curves[0]["extrapolated"]) else ""), "interval": "" if i == 0 or not math.isfinite(low) else f"{low:.2f} to {high:.2f}",
+                         "ratio": "" if i == 0 else words.fixed(value, 2) + _mark(value, row.curves[0], curve), "interval": "" if i == 0 or not math.isfinite(low) else f"{low:.2f} to {high:.2f}",
                          "verdict": "" if i == 0 else verdict(row.ratio[i])})
     return rows
 

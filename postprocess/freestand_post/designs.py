@@ -6,6 +6,7 @@ import numpy as np
 import yaml
 
 from . import words
+from .model import counted_median
 from .problem import USAGE, Problem
 
 # What makes no other design: how much was computed, and how it was analysed.
@@ -182,9 +183,13 @@ def curves(sweeps):
 
 
 def ratio(first, curve, paired, level):
-    """Median over the first one's, with its interval from resampled motions: the same motions of both where they are paired."""
+    """Median over the first one's, with its interval from resampled motions: the same motions of both where they are paired. Where a curve is
+    not adequate, by where the counted shares reach one half: no interval is known of that."""
     if curve is first or not (first["median"] > 0 and curve["median"] > 0):
         return (math.nan,) * 3
+    if not (first["adequate"] and curve["adequate"]):
+        known = [counted_median(one) for one in (first, curve)]
+        return known[1] / known[0] if all(0 < one < math.inf for one in known) else math.nan, math.nan, math.nan
     a, b = np.log(first["resampled_median"]), np.log(curve["resampled_median"])
     if not paired:
         a = a[::-1]  # another order: as if drawn by themselves
@@ -199,11 +204,21 @@ def ratio(first, curve, paired, level):
 
 
 def shown_median(sweep, curve):
-    """The median as a headline has it: one beyond what was swept is not known but for its side."""
-    if not curve["extrapolated"]:
-        return words.quantity(curve["median"], sweep.im_unit)
-    above = curve["median"] > (sweep.edge[0] + sweep.edge[-1]) / 2
+    """The median as a headline has it, by the counted shares where the curve is not adequate: one beyond what was swept is not known but for
+    its side."""
+    median = curve["median"] if curve["adequate"] else counted_median(curve)
+    if math.isnan(median):
+        return "–"
+    if not curve["extrapolated"] if curve["adequate"] else 0 < median < math.inf:
+        return words.quantity(median, sweep.im_unit)
+    above = median > (sweep.edge[0] + sweep.edge[-1]) / 2
     return ("> " if above else "< ") + words.chosen(float(f"{sweep.edge[-1 if above else 0]:.3g}"), sweep.im_unit)
+
+
+def shown_half(curve):
+    """Where the counted shares reach one half, in a table."""
+    median = counted_median(curve)
+    return words.number(median, 3) if 0 < median < math.inf else "–"
 
 
 def verdict(found):

@@ -44,6 +44,15 @@ def crossing(x, y, level):
     return np.nan
 
 
+def counted_median(curve):
+    """Where the counted shares of a fragility function's bins reach one half; infinite where all of them lie below that, 0 where they lie
+    above; nan where they fall."""
+    good = curve["counted"][np.isfinite(curve["counted"])]
+    if not good.size:
+        return np.nan
+    return np.inf if good.max() < 0.5 else 0.0 if good.min() >= 0.5 else crossing(curve["im"], curve["counted"], 0.5)
+
+
 def chosen_capacities(edp, limit=5):
     """Positions of a few capacities, spread over the list."""
     n = edp.capacity.size

@@ -241,6 +241,15 @@ def _overturning(root):
     return result
 
 
+def _add_counted(centre, edps, overturning):
+    """To each curve the share counted in each bin, which holds where the curve is not adequate."""
+    for edp in edps:
+        for curve, counted in zip(edp.functions, edp.surface["empirical"].T):
+            curve.update(im=centre, counted=counted)
+    if overturning:
+        overturning.update(im=centre, counted=next((edp for edp in edps if edp.name == "overturned"), edps[0]).bins["p_over"])
+
+
 def _json(path):
     if not path.exists():
         return {}
@@ -311,6 +320,7 @@ def _read_sweep(folder):
         centre = _numbers(root["im"], "centre", (edge.size - 1,))
         edps = [_edp(root["edp"][name], name, edge.size - 1) for name in root["edp"]]
         overturning = _overturning(root)
+    _add_counted(centre, edps, overturning)
     names = attributes.get("outcome_names", OUTCOMES)
     names = names.split() if isinstance(names, str) else names
     outcomes = dict(zip(names, np.atleast_1d(attributes.get("outcome_counts", [])).astype(int).tolist()))

@@ -267,6 +267,12 @@ def sampled(name):
     return SAMPLED.get(name) or short_column(name.replace(".", "_")).removeprefix("block ")
 
 
+def property_of_motions(name):
+    """"the period of the pulse", "record magnitude mw": a column of the table of records, as ranking.csv has it."""
+    return {"record_pulse_period_s": "the period of the pulse", "record_building_period_s": "the period of the building",
+            "record_building_damping": "the damping of the building"}.get(name, name.replace("_", " "))
+
+
 def a_year(rate):
     """"2.3×10⁻⁴": two digits, as powers of ten below a hundredth."""
     if not math.isfinite(rate) or rate == 0 or rate >= 0.01:

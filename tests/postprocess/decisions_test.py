@@ -126,6 +126,62 @@ class BeyondTheSweep(InFolder):
         self.assertNotIn("44", pictures.draw(results[0])[0].finding)
 
 
+class WhereACurveDoesNotHold(InFolder):
+    """What counts is where the counted shares reach one half: in headline, title, ratio, and what is beyond chance."""
+
+    def refuted(self, name, median, half, **more):
+        """A design whose curve misses its counted shares, which rise evenly through one half at `half`."""
+        folder = self.design(name, median, **more)
+        with h5py.File(folder / "fragility.h5", "a") as root:
+            root["overturning"].attrs["adequate"] = 0
+            root["edp/overturned/p_over"][:] = np.clip(0.5 + 0.2 * (root["im/centre"][()] - half), 0, 1)
+        return folder
+
+    def test_of_several_designs(self):
+        folders = [self.refuted("a", 2.0, 1.6), self.refuted("b", 3.0, 2.2, width=0.9)]
+        results = read(folders)
+        (picture,) = pictures.draw(results[0])
+        content = decisions_report.designs(results, [], [{"section": "designs"}])
+        self.assertEqual([(number, what.split(": ")[0].split("of ")[1]) for number, what in content["headline"]],
+                         [("1.6", "overturning, counted"), ("2.2", "overturning, counted")])
+        self.assertIn("at which the counted shares of overturning reach one half is 1.38 times as large", picture.finding)
+        first, second = content["parts"][0]["medians"][:2]
+        self.assertEqual((first["counted"], second["counted"], second["ratio"], second["interval"], second["verdict"]),
+                         ("1.60", "2.20", "1.38†", "", "not known"))
+        self.assertTrue(second["median"].endswith("†"))
+
+    def test_of_one_that_holds_and_one_that_falls_nowhere(self):
+        results = read([self.design("a", 2.0), self.refuted("b", 3.0, 90, width=0.9)])
+        content = decisions_report.designs(results, [], [{"section": "designs"}])
+        end = results[0].sweeps[0].edge[-1]
+        self.assertEqual([number for number, _ in content["headline"]], ["2.0", f"> {end:.4g}"])
+        self.assertEqual(content["parts"][0]["medians"][1]["ratio"], "–")
+
+    def test_over_several_intensities(self):
+        folders = [self.design("pga", 1.2), self.refuted("pgv", 2.3, 1.7)]
+        for folder, im, unit in zip(folders, ("pga_g", "pgv_mps"), ("g", "m/s")):
+            with h5py.File(folder / "fragility.h5", "a") as root:
+                root.attrs.update(im=im, im_unit=unit, im_symbol="")
+        results = read(folders)
+        self.assertEqual(over_intensities.content(results[0], [], [])["headline"],
+                         [("1.2\u00a0g", "median PGA of overturning"), ("1.7\u00a0m/s", "median PGV of overturning, counted")])
+        self.assertRegex(pictures.draw(results[0])[0].finding, "counted shares where these do not hold, .* PGA\u00a0=\u00a01.2\u00a0g and PGV\u00a0=\u00a01.7")
+
+
+class RiskPicture(InFolder):
+    def test_of_many_rates_each_demand_keeps_one_and_the_rest_is_told(self):
+        folder = make_decisions.make_risk(self.folder / "risk")
+        found = json.loads((folder / "risk.json").read_text())
+        told = next(one for one in found["demands"] if not one["refused"])
+        found["demands"] = [{**told, "edp": edp, "capacity": capacity, "title": f"{edp} {capacity}"}
+                            for edp in ("delta", "peak_slip_m", "residual_slip_m") for capacity in (1, 2, 3)] + [{**told, "edp": "leaves", "capacity": None, "title": "leaves"}]
+        (folder / "risk.json").write_text(json.dumps(found))
+        (picture,) = pictures.draw(read([folder])[0])
+        rows = [label.get_text() for label in picture.figure.axes[0].get_yticklabels()]
+        self.assertEqual((len(rows), rows[-1]), (8, "Leaves"))
+        self.assertIn("2 more rates: in the table.", picture.caption)
+
+
 class Legend(InFolder):
     def test_every_row_of_the_legend_has_its_room(self):
         """Five designs take two rows of short names, five rows of long ones."""

@@ -77,9 +77,19 @@ def _view(designs):
     return min(view[0] for view in views), max(view[1] for view in views)
 
 
+def _by_counts(designs, row):
+    i = max((i for i, ratio in enumerate(row.ratio) if np.isfinite(ratio[0])), key=lambda i: abs(np.log(row.ratio[i][0])))
+    return (f"{words.capitalised(designs.labels[i])} against {designs.labels[0]}: the {designs.im_symbol} at which the counted shares of {row.what} reach "
+            f"one half is {row.ratio[i][0]:.2f} times as large")
+
+
 def _finding(designs):
     """By medians that were swept: of the first row in which that of the first design is, and another one's is or is known to lie beyond."""
     for row in designs.rows:
+        if not all(curve["adequate"] for curve in row.curves):
+            if any(np.isfinite(value) for value, _, _ in row.ratio):
+                return _by_counts(designs, row)
+            continue
         beyond = [label for label, curve in zip(designs.labels, row.curves) if curve["extrapolated"]]
         within = [i for i, (ratio, curve) in enumerate(zip(row.ratio, row.curves)) if np.isfinite(ratio[1]) and not curve["extrapolated"]]
         if row.curves[0]["extrapolated"] or not (within or beyond):

@@ -7,7 +7,7 @@ from ..reading import Sweep
 from . import Picture
 
 order = 55
-CAPTION = ("Points: share of the samples of each bin in which it happened, overturned ones included; bars and band: {level} interval, "
+CAPTION = ("Points: share of all samples of each bin, overturned ones among them, in which it happened; bars and band: {level} interval, "
            "from resampled motions and never narrower than the exact binomial one.")
 
 

@@ -11,9 +11,10 @@ SHOWN = 12
 DOUBT = 0.05
 CAPTION = ("Scatter: standard deviation of ln demand about a line over ln intensity, of the samples that moved and stood; of what "
            "happens or not: share of the deviance that a lognormal curve over the intensity explains. Bars: one standard error, motions as "
-           "the unit. Filled: the best and those that these motions do not part from it (two standard errors of the difference). A ring "
-           "around a point: what is left depends on the period of the pulse (p < 0.05), so that the answer hangs on which motions were "
-           "taken. All numbers: ranking.csv.")
+           "the unit. Filled: the best and those that these motions do not part from it (two standard errors of the difference). {ring}All "
+           "numbers: ranking.csv.")
+RING = ("A ring around a point: what is left depends on a property of the motions (p < 0.05; here {}), so that the answer hangs on which motions "
+        "were taken. ")
 
 
 def pictures(results):
@@ -48,8 +49,14 @@ def _rival(row):
     return row["behind_best"] == 0 or row["behind_best_se"] is not None and row["behind_best"] <= 2 * row["behind_best_se"]
 
 
-def _doubtful(row):
-    return any(left["p"] is not None and left["p"] < DOUBT for left in row.get("sufficiency", []))
+def _doubts(row):
+    """On which properties of the motions depends what it leaves?"""
+    return [left["on"] for left in row.get("sufficiency", []) if left["p"] is not None and left["p"] < DOUBT]
+
+
+def _caption(rows):
+    doubts = dict.fromkeys(on for row in rows for on in _doubts(row))
+    return CAPTION.format(ring=RING.format(words.listing(words.property_of_motions(on) for on in doubts)) if doubts else "")
 
 
 def _picture(sweep, edps, own):
@@ -64,7 +71,7 @@ def _picture(sweep, edps, own):
                    + (f" Bold: {words.listing(bold)}, over which this sweep is fitted." if bold else ""))
     ranking = sweep.summary["ranking"]
     some = ranking.get("samples", 0) < ranking.get("swept", 0)
-    return Picture("intensities", fig, finding, CAPTION + (f" Of the first {words.count(ranking['samples'])} samples." if some else ""), "sweep")
+    return Picture("intensities", fig, finding, _caption(row for panel in rows for row in panel) + (f" Of the first {words.count(ranking['samples'])} samples." if some else ""), "sweep")
 
 
 def _panel(ax, edp, rows, own):
@@ -75,7 +82,7 @@ def _panel(ax, edp, rows, own):
         colour = style.BLUE if _rival(row) else style.GREY
         ax.errorbar(value[y], -y, xerr=error[y], fmt="o", ms=6, color=colour, mfc=colour if _rival(row) else "white", mec=colour,
                     elinewidth=1.2, capsize=2, zorder=3)
-        if _doubtful(row):
+        if _doubts(row):
             ax.plot(value[y], -y, "o", ms=12, mfc="none", mec=style.VERMILION, mew=1.1, zorder=2)
     low, high = min(value - error), max(value + error)
     room = 0.12 * (high - low) or 0.1

@@ -64,7 +64,10 @@ def _at(symbol, median):
 def _finding(found):
     for what, curves in found.events:
         if all(curve["median"] > 0 for curve in curves):
+            holds = [curve["adequate"] for curve in curves]
+            by = "By the fitted curves" if all(holds) else "By the fitted curves, or the counted shares where these do not hold" if any(holds) else \
+                "By the counted shares"
             at = [_at(sweep.im_symbol, shown_median(sweep, curve)) for sweep, curve in zip(found.sweeps, curves)]
-            return f"By the fitted curves, half exceed “{what}” at {words.listing(at)}" if what != "overturning" else \
-                f"By the fitted curves, half of the specimens overturn at {words.listing(at)}"
+            return f"{by}, half exceed “{what}” at {words.listing(at)}" if what != "overturning" else \
+                f"{by}, half of the specimens overturn at {words.listing(at)}"
     return "Too few samples exceed for a curve over each of these intensities"

@@ -18,15 +18,13 @@ def pictures(results):
 
 
 def _chosen(risk):
-    """Rows to draw: all, or of each demand the first, the middle and the last capacity."""
+    """Rows to draw: all; or of each demand the middle capacity, and as many of the first and last ones as there is room for."""
     rows = risk.told()
-    if len(rows) <= MOST:
-        return rows
-    chosen = []
-    for edp in dict.fromkeys(row.edp for row in rows):
-        mine = [row for row in rows if row.edp == edp]
-        chosen += [mine[i] for i in sorted({0, len(mine) // 2, len(mine) - 1})]
-    return chosen[:MOST]
+    places = {}
+    for i, row in enumerate(rows):
+        places.setdefault(row.edp, []).append(i)
+    by_need = [mine[at(len(mine))] for at in (lambda n: n // 2, lambda n: n - 1, lambda n: 0) for mine in places.values()]
+    return rows if len(rows) <= MOST else [rows[i] for i in sorted(list(dict.fromkeys(by_need))[:MOST])]
 
 
 def _picture(risk):
@@ -50,8 +48,10 @@ def _picture(risk):
     _split(right, risk, rows, colours)
     finding = _finding(risk, rows)
     style.headline(fig, finding, f"{risk.study_name}: the hazard curve over {risk.im_symbol}, {words.level(risk.confidence)} intervals; "
-                                 f"swept {words.span(*risk.swept)} {words.UNITS.get(risk.im_unit, risk.im_unit)}.")
-    return Picture("risk", fig, finding, CAPTION.format(level=words.level(risk.confidence), im=risk.im_symbol), "risk")
+                                 f"swept {words.number(risk.swept[0])} to {words.quantity(risk.swept[1], risk.im_unit)}.")
+    more = len(risk.told()) - len(rows)
+    return Picture("risk", fig, finding, CAPTION.format(level=words.level(risk.confidence), im=risk.im_symbol)
+                   + (f" {words.capitalised(words.plural(more, 'more rate'))}: in the table." if more else ""), "risk")
 
 
 def _colours(rows):
