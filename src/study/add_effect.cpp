@@ -136,7 +136,11 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   open_numbers(*after->bench, fit, jobs);
 
   std::vector<LadderStep> ladder = before->validation.ladder;
-  if (ladder.empty()) ladder.push_back(step_of("base", *before, base, jobs));
+  if (ladder.empty()) {
+    ModelFit told = base;  // as `compare` tells it
+    open_numbers(*before->bench, told, jobs);
+    ladder.push_back(step_of("base", *before, told, jobs));
+  }
   ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fit, jobs));
   write_numbers(root, fit);
   root["ladder"] = ladder_node(ladder);

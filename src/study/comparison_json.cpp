@@ -243,7 +243,7 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
     const TestComparison& t = c.tests[i];
     json["tests"].push_back(test_json(bench, t));
     json["tests"].back()["error_of_mean"] = number_or_null(of_mean[i]);
-    json["tests"].back()["within_band"] = number_or_null(share_within(bench.test(t.test), bands[t.test]));
+    json["tests"].back()["within_band"] = number_or_null(share_within(bench, bench.test(t.test), bands[t.test]));
   }
   json["histories"] = Json::array();
   for (const std::size_t i : c.worst)

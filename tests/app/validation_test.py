@@ -65,6 +65,10 @@ class Validation(InFolder):
         self.assertLess(comparison["holdout"]["error_noise_units"], 1.2)
         self.assertLess(comparison["holdout"]["error_of_mean"], 1.2)
         base, added = comparison["ladder"]
+        self.succeed(["compare", self.study, "-o", self.folder / "before", "--quiet"])
+        before = numbers(self.folder / "before" / "comparison.json")
+        for role, error in (("calibration", base["error_calibration"]), ("holdout", base["error_holdout"])):
+            self.assertAlmostEqual(before[role]["error_noise_units"], error, delta=1e-4 * error)
         self.assertEqual((base["step"], added["step"]), ("base", "rate_weakening"))
         self.assertGreater(base["error_holdout"], 20 * added["error_holdout"])
         sweep = (out / "fitted.yaml").read_text(encoding="utf-8").replace("samples: 20000", "samples: 300")

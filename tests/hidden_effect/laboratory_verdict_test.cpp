@@ -65,6 +65,19 @@ TEST(LaboratoryVerdict, AnEffectIsFoundThoughFrictionScatters) {
   EXPECT_GT(d.friction_scatter, 0.01);
 }
 
+// A gain that is off by more than its tolerance lets it be is no effect, and what comes closest is told.
+TEST(LaboratoryVerdict, AGainBeyondItsToleranceIsTold) {
+  const Diagnosis d = diagnosed(request({}, ""), {"static_friction"}, [](MadeSet& set) {
+    for (MadeTest& test : set.tests)
+      for (double& a : test.measured_floor.horizontal_mps2) a *= 1.06;
+  });
+  EXPECT_EQ(d.verdict, Verdict::unknown);
+  EXPECT_TRUE(std::ranges::any_of(d.sentences, [](const std::string& s) {
+    return s.find("closest to the tests left out if the floor's accelerometer reads 3.0 % too much") !=
+           std::string::npos;
+  })) << testing::PrintToString(d.sentences);
+}
+
 // A block that rocks tells its width to a ten thousandth: what one that is a percent off leaves is no second effect, and the first is named.
 TEST(LaboratoryVerdict, AnEffectIsFoundThoughTheWidthIsOff) {
   const SetRequest rocking{{"impact_loss"}, 970, 6, 6};

@@ -36,6 +36,17 @@ TEST(Bands, TheMeanIsOfTheHistoriesOfTheDraws) {
   }
 }
 
+// Readings of a sensor whose noise is not stated have no band that they could lie in, or not.
+TEST(Bands, ShareIsOfChannelsWhoseNoiseIsStated) {
+  Dataset data = test::made_dataset(test::cabinet());
+  for (measurement::Test& t : data.tests) t.block_acceleration_mps2.assign(t.slip_m.size(), 1e3);
+  const Bench bench(data, 0);
+  ASSERT_EQ(bench.noise(Channel::block_acceleration), 0);
+  const auto bands =
+      predicted_bands(bench, test::free_friction(), {.draws = {{0.2}, {0.2001}}, .of_mean = {}}, run_here);
+  for (std::size_t i = 0; i < bench.size(); ++i) EXPECT_GT(share_within(bench, bench.test(i), bands[i]), 0.8);
+}
+
 TEST(Bands, WithoutDrawsThereIsNoMean) {
   const Dataset data = test::made_dataset(test::cabinet());
   const Bench bench(data, 0);

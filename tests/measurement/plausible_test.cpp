@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
+#include "base/random.hpp"
+#include "measurement/data/ground.hpp"
 #include "measurement/examined.hpp"
 
 namespace freestand::measurement::plausible_test {
@@ -154,13 +158,52 @@ TEST(Quality, OffsetsOfSensors) {
   EXPECT_EQ(q.wrong_numbers, 1);  // an offset of twice the noise does little harm
   data = good;
   shifted(data.tests[1].slip_m, 0.3 * test::slip_noise_m);
-  floor(data, 0.02);
   EXPECT_THAT(examined(data).findings, IsEmpty());
-  floor(data, -0.3);
+  floor(data, -0.28);
   q = examined(data);
   EXPECT_THAT(q.findings, Contains(HasSubstr("the floor of t1, t2, t3, t4, t5 is off zero before and after the shaking "
                                              "(0.28 m/s2)")));
   EXPECT_TRUE(q.spoilt());
+}
+
+// Less than a percent of what the floor reaches, and no more than the noise of one sample, is told by the mean of many; half a second of sliding
+// under it makes more than a sensor of slips can miss.
+TEST(Quality, AnOffsetOfTheFloorIsJudgedByItsOwnError) {
+  constexpr double floor_noise = 0.04, offset = 0.04;
+  for (const double by : {0.0, offset}) {
+    Dataset data = test::made_dataset(sliding_cabinet(0.2));
+    data.noise.floor_acceleration_mps2 = floor_noise;
+    for (std::size_t t = 0; t < data.tests.size(); ++t) {
+      std::vector<double> a = motion_samples(data.tests[t].motion, data.tests[t].motion.horizontal_mps2);
+      for (std::size_t k = 0; k < a.size(); ++k) a[k] += by + floor_noise * random::standard_normal(31, k, t);
+      data.tests[t].motion = piecewise_linear("noisy", data.tests[t].motion.knot_s[1], a, {});
+    }
+    const Quality q = examined(data);
+    EXPECT_EQ(q.spoilt(), by > 0);
+    const auto told = Contains(HasSubstr("is off zero before and after the shaking (0.04"));
+    if (by > 0)
+      EXPECT_THAT(q.findings, told);
+    else
+      EXPECT_THAT(q.findings, Not(told));
+  }
+}
+
+// A sensor at its end says nothing of what goes on beyond: no effect is named by it.
+TEST(Quality, ACutOffChannelSpoilsTheSet) {
+  for (const bool floor : {false, true}) {
+    Dataset data = test::made_dataset(sliding_cabinet(0.2));
+    const auto cut = [](std::vector<double>& samples) {
+      const double most = greatest(samples);
+      for (double& s : samples) s = std::clamp(s, -0.6 * most, 0.6 * most);
+    };
+    std::vector<double> a = motion_samples(data.tests[1].motion, data.tests[1].motion.horizontal_mps2);
+    for (std::size_t k = 0; k < a.size(); ++k) a[k] += 0.02 * random::standard_normal(32, k, 0);
+    cut(floor ? a : data.tests[1].slip_m);
+    data.tests[1].motion = piecewise_linear("cut", data.tests[1].motion.knot_s[1], a, {});
+    const Quality q = examined(data);
+    EXPECT_THAT(q.findings, Contains(HasSubstr("the sensor looks clipped"))) << floor;
+    EXPECT_TRUE(q.spoilt()) << floor;
+  }
 }
 
 // A dead floor and a noise that is understated make no offset.

@@ -82,10 +82,11 @@ TestError error_of_mean(const Bench& bench, std::size_t test, const Bands& bands
                                .block_acceleration_mps2 = mean(Channel::block_acceleration)});
 }
 
-double share_within(const Test& test, const Bands& bands) {
+double share_within(const Bench& bench, const Test& test, const Bands& bands) {
   double held = 0, count = 0;
   for (std::size_t c = 0; c < bands.size(); ++c) {
     const auto& measured = history(test, static_cast<Channel>(c));
+    if (bench.noise(static_cast<Channel>(c)) <= 0) continue;  // a channel of no stated noise has no band
     for (std::size_t k = 0; k < measured.size(); ++k) held += bands[c].holds(k, measured[k]), ++count;
   }
   return count > 0 ? held / count : std::numeric_limits<double>::quiet_NaN();

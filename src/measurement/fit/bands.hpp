@@ -24,6 +24,6 @@ std::vector<Bands> predicted_bands(const Bench&, const ModelSpec&, const Posteri
 TestError error_of_mean(const Bench&, std::size_t test, const Bands&);
 
 // Share of a test's readings, of all channels together, that lie in their bands; nan where there are none.
-double share_within(const Test&, const Bands&);
+double share_within(const Bench&, const Test&, const Bands&);
 
 }  // namespace freestand::measurement

@@ -42,9 +42,11 @@ class Doubter {
       sizes(test);
       response(test);
       if (test.pulse.empty()) floor(test);
-      if (test.pulse.empty() && cut_off(floor_samples(test), bench_.floor_noise_mps2(i)))
+      if (test.pulse.empty() && cut_off(floor_samples(test), bench_.floor_noise_mps2(i))) {
+        out_.spoilt_tests += test.role == Role::calibration;
         say("the floor's channel of test {} stays at its extreme value for several samples: the sensor looks clipped",
             test.id);
+      }
       offsets(i);
       channels(i);
       if (test.start.upright_at_rest() &&

@@ -21,7 +21,7 @@ std::string held_out_note(const Dataset&, const std::vector<std::string>& ids);
 
 // Of every test: sizes above 50 m; slips above 5 m and rotations above 1.8 rad (other units); a floor above 10 g, or one
 // under which the block moves though it stays below 0.02 g, or three times as fast as the floor's velocities differ (other
-// units, or a dead channel; from 1.5 times on it is said, and spoils nothing); a floor that stays at its extreme; slips,
+// units, or a dead channel; from 1.5 times on it is said, and spoils nothing); a floor that is cut off; slips,
 // rotations and floors with an offset (plausible_offsets.hpp), which spoils the test from eight times the noise, or 2 % of the
 // floor's peak, on; channels that freeze, are another test's, are mirrored or in another unit (plausible_channels.hpp). Of all
 // calibration tests together: a sensor that scatters from sample to sample three times as much as the data set states, or a

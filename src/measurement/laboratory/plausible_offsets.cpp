@@ -13,17 +13,24 @@ namespace {
 
 constexpr std::size_t most = 200;  // samples before the shaking
 
-struct Part {
-  double mean = 0, scatter = 0;
+// A mean, and its standard error by the means of ten parts, which slow noise moves as much as it moves the whole.
+struct Mean {
+  double value = 0, error = 0;
 };
 
-Part part_of(std::span<const double> samples) {
-  const auto n = static_cast<double>(samples.size());
-  Part p;
-  for (const double s : samples) p.mean += s / n;
-  for (const double s : samples) p.scatter += (s - p.mean) * (s - p.mean) / n;
-  p.scatter = std::sqrt(p.scatter);
-  return p;
+Mean mean_of(std::span<const double> samples) {
+  constexpr std::size_t parts = 10;
+  const std::size_t each = samples.size() / parts;
+  Mean mean;
+  double square = 0;
+  for (std::size_t p = 0; p < parts; ++p) {
+    double part = 0;
+    for (const double s : samples.subspan(p * each, each)) part += s / static_cast<double>(each);
+    mean.value += part / parts;
+    square += part * part / parts;
+  }
+  mean.error = std::sqrt(std::max(0.0, square - mean.value * mean.value) / (parts - 1));
+  return mean;
 }
 
 // What a slip cannot be farther than, and a rotation than that over half the height: contact takes the block's velocity towards the
@@ -87,13 +94,32 @@ bool moves_before_floor(const Bench& bench, std::size_t i, Channel channel) {
 }
 
 double floor_offset_mps2(const std::vector<double>& floor) {
+  constexpr double surely =
+      5;  // standard errors of ten means: once in 2 million pairs that are off zero to the same side
   const std::size_t n = std::max<std::size_t>(floor.size() / 20, 10);
   if (floor.size() < 4 * n) return 0;
-  const Part before = part_of({floor.data(), n}), after = part_of({floor.data() + floor.size() - n, n});
-  const double least = std::min(std::abs(before.mean), std::abs(after.mean));
-  const bool steady = least > 3 * std::max(before.scatter, after.scatter) && before.mean * after.mean > 0 &&
-                      least > 0.5 * std::max(std::abs(before.mean), std::abs(after.mean));
-  return steady && least > 0.01 * greatest(floor) ? 0.5 * (before.mean + after.mean) : 0;
+  const Mean before = mean_of({floor.data(), n}), after = mean_of({floor.data() + floor.size() - n, n});
+  const auto is_off = [&](const Mean& mean) { return std::abs(mean.value) > surely * mean.error; };
+  const double less = std::min(std::abs(before.value), std::abs(after.value)),
+               more = std::max(std::abs(before.value), std::abs(after.value));
+  const bool steady = is_off(before) && is_off(after) && before.value * after.value > 0 && less > 0.5 * more;
+  return steady ? 0.5 * (before.value + after.value) : 0;
+}
+
+std::optional<Dataset> without_floor_offsets(const Dataset& data) {
+  Dataset other = data;
+  bool any = false;
+  for (Test& test : other.tests) {
+    if (!test.pulse.empty() || test.motion.degree != 1) continue;
+    std::vector<double> floor = motion_samples(test.motion, test.motion.horizontal_mps2);
+    const double offset = floor_offset_mps2(floor);
+    if (offset == 0) continue;
+    any = true;
+    for (double& a : floor) a -= offset;
+    test.motion = piecewise_linear(test.motion.name, test.motion.knot_s[1], floor,
+                                   motion_samples(test.motion, test.motion.vertical_mps2));
+  }
+  return any ? std::optional(other) : std::nullopt;
 }
 
 }  // namespace freestand::measurement

@@ -1,6 +1,8 @@
 // Channels that are off zero although nothing can have moved yet: an offset of the sensor, or a record that begins late.
 #pragma once
 
+#include <optional>
+
 #include "measurement/predict/bench.hpp"
 
 namespace freestand::measurement {
@@ -16,8 +18,9 @@ double start_offset(const Bench&, std::size_t test, Channel);
 bool moves_before_floor(const Bench&, std::size_t test, Channel);
 
 // Mean of the floor's acceleration [m/s2], where it is one and the same before the shaking and after it: over the first and
-// the last twentieth of the record its means are three times their scatter, differ at most by half, and make 1 % of its
-// peak. 0: no offset.
+// the last twentieth of the record its means are five times their standard errors, and differ at most by half. 0: no offset.
 double floor_offset_mps2(const std::vector<double>& floor_mps2);
+// The set with these subtracted; an empty one where no floor has an offset.
+std::optional<Dataset> without_floor_offsets(const Dataset&);
 
 }  // namespace freestand::measurement

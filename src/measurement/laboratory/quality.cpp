@@ -64,6 +64,7 @@ void look_at_channel(const Bench& bench, Channel channel, Quality& quality) {
       dead.push_back(test.id);
     } else if (cut_off(samples, bench.noise(channel))) {
       cut.push_back(test.id);
+      quality.wrong_numbers += test.role == Role::calibration && bench.noise(channel) > 0;
     }
   }
   if (!cut.empty())
@@ -290,13 +291,21 @@ Quality examine(const Bench& bench, const ModelFit& fit, const Effort& effort, c
   for (const std::size_t i : tests)
     rotates |= greatest(bench.test(i).rotation_rad) > 8 * bench.noise(Channel::rotation);
 
-  // Cases: slip mirrored, rotation mirrored, then the lags.
+  // Cases: slip mirrored, rotation mirrored, then the lags, and floors without their offsets.
   const bool slip_asked = !settled && has(bench, Channel::slip);
-  const auto scores = jobs("signs and times of the channels", 2 + lags.size(), [&](std::size_t i) {
+  const std::optional<Dataset> without_offsets = without_floor_offsets(bench.data());
+  const std::size_t cases = 2 + lags.size();
+  const auto scores = jobs("signs and times of the channels", cases + (without_offsets ? 1 : 0), [&](std::size_t i) {
     if (i == 0 ? !slip_asked : i == 1 && !rotates) return Values{fit.score};
-    const Dataset data = changed(bench.data(), i == 0, i == 1, i < 2 ? 0 : lags[i - 2]);
+    const Dataset data = i == cases ? *without_offsets : changed(bench.data(), i == 0, i == 1, i < 2 ? 0 : lags[i - 2]);
     return Values{refitted(Bench(data, 0), fit, effort)};
   });
+  if (without_offsets && scores.back()[0] < fit.score - much_closer) {
+    quality.wrong_numbers = std::max<std::size_t>(quality.wrong_numbers, 1);
+    quality.findings.push_back(
+        fmt::format("with the offset of the floor's channel subtracted the model comes {:.1f} times closer",
+                    std::exp((fit.score - scores.back()[0]) / 2)));
+  }
   if (scores[0][0] < fit.score - much_closer) {
     quality.mirrored_slip = true;
     quality.findings.push_back(fmt::format("the slip {}; with it turned round the model comes {:.1f} times closer",

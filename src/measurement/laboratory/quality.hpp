@@ -15,7 +15,7 @@ struct Quality {
   double late_s = 0;  // by which the response lags behind the floor's channel, beyond what the model gives
   // Of the calibration tests:
   std::size_t doubtful = 0;       // those whose slip alone looks mirrored, or late
-  std::size_t wrong_numbers = 0;  // those whose floor or response looks as if in another unit, or dead
+  std::size_t wrong_numbers = 0;  // those whose floor or response looks as if in another unit, dead, or clipped
   std::size_t moving = 0;         // tests with a history in which anything moved
 
   // No verdict on an effect can be drawn from such data.
