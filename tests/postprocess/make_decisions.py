@@ -1,11 +1,25 @@
 """Invented designs (sweeps with curves over all intensities), risk.json and sensitivity.json, as the program writes them."""
 import json
+import pathlib
+import tempfile
+import unittest
 
 import h5py
 import numpy as np
 from scipy import stats
+from freestand_post import designs, reading
+
+import support
 
 RESAMPLES = 400
+STUDY = """name: statue
+seed: 1
+block: {{width_m: {width}, height_m: 1.8, mass_kg: 200}}
+friction: {{mu_k: {mu}}}
+{chain}motions:
+  - records: "records/*.AT2"
+    scale_to: {{pta_g: {{uniform: [0.1, 2]}}}}
+"""
 
 
 def curve(group, medians, dispersions, resampled, edge, own=False):
@@ -43,6 +57,20 @@ def make_design(folder, study, overturning, scatter=0.1, own_scatter=0.01, seed=
         medians = overturning * np.linspace(0.3, 0.9, root["edp/delta/capacity"].size)
         curve(root.require_group("edp/delta/functions"), medians, 0 * medians + 0.5, medians[:, None] * factor[None, :], edge)
     return folder
+
+
+class InFolder(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="freestand-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def design(self, name, median, width=0.6, mu=0.3, chain="", **more):
+        study = STUDY.format(width=width, mu=mu, chain=chain)
+        return make_design(support.sweep_copy(self.folder / name), study, median, **more)
+
+    def sweeps(self, *folders):
+        return designs.compare([reading.read_sweep(folder) for folder in folders])
 
 
 def row(edp, capacity, rate, share, **more):
