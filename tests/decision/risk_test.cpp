@@ -46,8 +46,8 @@ struct BandCase {
 
 class RiskBands : public testing::TestWithParam<BandCase> {};
 
-// Wanted of 90 % intervals with shared records: 87 to 93 %, and figures of many repeats in risk.hpp. FREESTAND_REPEATS for more; both slopes of
-// each case with FREESTAND_LONG_TESTS.
+// Wanted of 90 % intervals with shared records: 87 to 93 %, and figures of many repeats in risk.hpp. FREESTAND_REPEATS for more; every
+// case, with both slopes, with FREESTAND_LONG_TESTS.
 TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   const BandCase& at = GetParam();
   Sweep sweep;
@@ -56,8 +56,7 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   sweep.per_record = at.per_record;
   const int repeats = test::repeats_asked(500);
   const double k0 = 1e-3;
-  const std::vector<double> slopes =
-      std::getenv("FREESTAND_LONG_TESTS") ? std::vector{1.5, 2.5} : std::vector{at.slope};
+  const std::vector<double> slopes = test::long_tests() ? std::vector{1.5, 2.5} : std::vector{at.slope};
   std::vector<Misses> by_function(slopes.size()), by_counts(slopes.size());
   int differ = 0;
   for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -85,10 +84,13 @@ TEST_P(RiskBands, HoldTheTruthWhereRecordsAreShared) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, RiskBands,
-                         testing::Values(BandCase{40, 0.6, 1.5}, BandCase{40, 1.5, 2.5}, BandCase{14, 0.6, 2.5},
-                                         BandCase{14, 1.5, 1.5}, BandCase{14, 0.6, 1.5, 250},
-                                         BandCase{14, 1.5, 2.5, 250}),
+std::vector<BandCase> band_cases() {
+  std::vector<BandCase> cases = {{40, 1.5, 2.5}, {14, 0.6, 2.5}, {14, 1.5, 2.5, 250}};
+  if (test::long_tests()) cases.insert(cases.end(), {{40, 0.6, 1.5}, {14, 1.5, 1.5}, {14, 0.6, 1.5, 250}});
+  return cases;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, RiskBands, testing::ValuesIn(band_cases()),
                          [](const auto& info) { return fmt::format("{}Records{}", info.param.records, info.index); });
 
 // Of ten bins as wide as the curve's dispersion a polygon through their shares gives 1.08 and 1.27 times the rate.

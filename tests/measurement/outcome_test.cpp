@@ -14,6 +14,7 @@
 #include "measurement/tell/suggest_outcomes.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
 #include "measurement/verdict/outcome_screen.hpp"
+#include "support/repeats.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -53,20 +54,20 @@ TEST(OutcomeFit, IntervalsOfFewTestsHoldTheTruth) {
 // So does that of the number of an effect, of which some forty values are looked at: of 30 sets 24 hold the truth in one of a
 // thousand programs that are right.
 TEST(OutcomeFit, IntervalsOfTheNumberOfAnEffectHoldTheTruth) {
-  constexpr int sets = 30;
+  const int sets = test::repeats_asked(test::long_tests() ? 30 : 12);
   constexpr double truth = 0.25;
   const auto* offset_mass = effects::find("offset_mass");
   OutcomeEffort effort;
   effort.resamples = 40;
   int held = 0;
-  for (std::uint64_t seed = 200; seed < 200 + sets; ++seed) {
+  for (std::uint64_t seed = 200; seed < 200 + static_cast<std::uint64_t>(sets); ++seed) {
     const Dataset data = made_outcomes(12, {{offset_mass, {truth}}}, seed);
     const Bench bench(data, 0);
     const ModelSpec model = with_effect(rocking_model(true_size_m), *offset_mass, bench.reach());
     const ModelFit fit = fit_outcomes(bench, model, {}, effort, run_here);
     held += fit.intervals[2].lower <= truth && truth <= fit.intervals[2].upper;
   }
-  EXPECT_GE(held, 24);
+  EXPECT_GE(held, 0.8 * sets);
 }
 
 // All fell: however slender the block is, beyond some slenderness the tests say the same.
@@ -237,7 +238,7 @@ TEST(Outcomes, PredictionsForTestsLeftOutDoNotJump) {
 }
 
 TEST(Outcomes, NothingIsMissingWhereNothingIs) {
-  const Dataset data = made_outcomes(200, {});
+  const Dataset data = made_outcomes(test::long_tests() ? 200 : 120, {});
   const Bench bench(data, 0);
   const Diagnosis d = diagnosed(bench, {"offset_mass", "impact_loss", "reduced_base", "static_friction"});
   EXPECT_EQ(d.verdict, Verdict::none) << fmt::format("{}", fmt::join(d.sentences, "\n"));
@@ -267,7 +268,7 @@ TEST(Outcomes, AModelThatIsSurerThanItMayBeLacksSomething) {
 }
 
 TEST(Outcomes, AsymmetryIsNamed) {
-  const Dataset data = made_outcomes(200, {{effects::find("offset_mass"), {0.25}}});
+  const Dataset data = made_outcomes(test::long_tests() ? 200 : 120, {{effects::find("offset_mass"), {0.25}}});
   const Bench bench(data, 0);
   const Diagnosis d = diagnosed(bench, {"offset_mass", "impact_loss"});
   EXPECT_EQ(d.verdict, Verdict::missing) << fmt::format("{}", fmt::join(d.sentences, "\n"));

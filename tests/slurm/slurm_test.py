@@ -1,5 +1,6 @@
 """jobs/freestand.slurm under a real Slurm: signalled while it sweeps and while it fits, queued again, and in the end the bits of mpirun."""
 
+import os
 import pathlib
 import re
 import sys
@@ -115,6 +116,7 @@ class Slurm(InFolder):
         self.succeed(["catalogue", catalogue, "-o", self.folder / "here"], 3)
         self.assertEqual((self.out / "fragility.csv").read_text(), (self.folder / "here/fragility.csv").read_text())
 
+    @unittest.skipUnless("FREESTAND_LONG_TESTS" in os.environ, "a minute more: FREESTAND_LONG_TESTS")
     def test_a_diagnosis_that_was_stopped_goes_on(self):
         """Of the shortest tests: what it finds is of no concern here, but that a stop does not change it."""
         study = walkthrough(self.folder / "study", ("t01", "t02", "t05"))

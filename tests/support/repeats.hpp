@@ -6,6 +6,9 @@
 
 namespace freestand::test {
 
+// FREESTAND_LONG_TESTS: variants of what the short run has shown once.
+inline bool long_tests() { return std::getenv("FREESTAND_LONG_TESTS") != nullptr; }
+
 // FREESTAND_REPEATS, where more are wanted than a test takes.
 inline int repeats_asked(int otherwise) {
   const char* asked = std::getenv("FREESTAND_REPEATS");
