@@ -42,6 +42,13 @@ TEST(Quality, AChannelOfOneTest) {
       [](measurement::Test& one, measurement::Test&) { std::fill_n(one.slip_m.begin() + 350, 40, one.slip_m[350]); },
       "slip_m of t2 stays at one value for 0.2 s, where its sensor's noise changes it: did the recording stop?");
   said(
+      slid,
+      [](measurement::Test& one, measurement::Test&) {
+        one.dt_s *= 1000;
+        one.motion = piecewise_linear("slow", one.dt_s, motion_samples(one.motion, one.motion.horizontal_mps2), {});
+      },
+      "t2 is sampled every 5 s: is its time in seconds?");
+  said(
       rocked,
       [](measurement::Test& one, measurement::Test&) {
         for (double& theta : one.rotation_rad) theta = -theta;

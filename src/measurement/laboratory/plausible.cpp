@@ -20,7 +20,7 @@
 namespace freestand::measurement {
 namespace {
 
-constexpr double longest_size_m = 50, longest_slip_m = 5, largest_rotation_rad = 1.8;
+constexpr double longest_size_m = 50, longest_slip_m = 5, largest_rotation_rad = 1.8, longest_step_s = 0.1;
 constexpr double strongest_floor_g = 10, weakest_floor_g = 0.02;
 constexpr double strangely_fast = 1.5, impossibly_fast = 3;  // slip speed, in the range of the floor's velocity
 
@@ -82,6 +82,7 @@ class Doubter {
     const double slip =
         std::max({greatest(test.slip_m), test.peaks.peak_slip_m.value_or(0), test.peaks.residual_slip_m.value_or(0)});
     const double rotation = std::max(greatest(test.rotation_rad), test.peaks.peak_rotation_rad.value_or(0));
+    if (test.has_history() && test.dt_s > longest_step_s) steps_.add(test, test.dt_s);
     if (slip > longest_slip_m) slips_.add(test, slip);
     if (rotation > largest_rotation_rad) rotations_.add(test, rotation);
   }
@@ -163,6 +164,7 @@ class Doubter {
         out_.sentences.push_back(fmt::format(fmt::runtime(text), fmt::join(seen.ids, ", "), seen.most) + question +
                                  held_out_note(bench_.data(), seen.ids));
     };
+    about(steps_, "{} is sampled every {:.2g} s", ": is its time in seconds?");
     about(slips_, "the slip of {} reaches {:.3g} m", ": is slip_m in metres?");
     about(rotations_, "the rotation of {} reaches {:.3g} rad", ": is rotation_rad in radians?");
     about(strong_, "the floor of {} reaches {:.3g} g", ": is floor_acceleration_mps2 in m/s2?");
@@ -247,7 +249,7 @@ class Doubter {
   const Bench& bench_;
   const double without_slip_;
   Doubts out_;
-  Seen slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, same_floors_, turned_,
+  Seen steps_, slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, same_floors_, turned_,
       shares_;
   Seen frozen_[channel_count], copied_[channel_count];
   std::vector<std::string> fast_;
