@@ -244,9 +244,9 @@ def _overturning(root):
 def _add_counted(centre, edps, overturning):
     """To each curve the share counted in each bin, which holds where the curve is not adequate."""
     for edp in edps:
-        for curve, counted in zip(edp.functions, edp.surface["empirical"].T):
+        for curve, counted in zip(edp.functions, edp.surface["empirical"].T if edp.surface else []):
             curve.update(im=centre, counted=counted)
-    if overturning:
+    if overturning and edps:
         overturning.update(im=centre, counted=next((edp for edp in edps if edp.name == "overturned"), edps[0]).bins["p_over"])
 
 

@@ -123,7 +123,8 @@ struct RankedIm {
   // samples.
   double value = unknown, value_se = unknown, behind = unknown, behind_se = unknown;
   double slope = unknown;  // of ln(EDP) over ln(IM)
-  double parts = unknown;  // of what happens or not: probability that IM puts a pair in order
+  // Of what happens or not: probability that IM puts a pair in order. Between intensities at or below 0 the tally knows no order: half.
+  double parts = unknown;
   std::vector<Sufficiency> sufficiency = {};
 };
 

@@ -23,10 +23,10 @@ def pictures(results):
 
 
 def panels(designs):
-    """(title, [(sweep, curve, bins' intensity and counted share) of each]) that are drawn."""
+    """(title, [curve of each]) that are drawn."""
     found = []
     if all(sweep.overturning and np.isfinite(sweep.overturning["probability"]).any() for sweep in designs.sweeps):
-        found.append(("P(overturned)", [(sweep.overturning, sweep.centre, _over(sweep)) for sweep in designs.sweeps]))
+        found.append(("P(overturned)", [sweep.overturning for sweep in designs.sweeps]))
     for edp in designs.sweeps[0].continuous():
         others = [next((one for one in sweep.continuous() if one.name == edp.name and one.unit == edp.unit), None) for sweep in designs.sweeps]
         if not all(other is not None and other.functions for other in others):
@@ -34,16 +34,9 @@ def panels(designs):
         for k in chosen_capacities(edp, 3):
             places = [int(np.argmin(np.abs(other.capacity - edp.capacity[k]))) for other in others]
             if all(np.isclose(other.capacity[j], edp.capacity[k]) for other, j in zip(others, places)) and len(found) < 3:
-                found.append((f"P({edp.label} > {words.chosen(edp.capacity[k], edp.unit)})",
-                              [(other.functions[j], sweep.centre, other.surface["empirical"][:, j])
-                               for sweep, other, j in zip(designs.sweeps, others, places)]))
+                found.append((f"P({edp.label} > {words.chosen(edp.capacity[k], edp.unit)})", [other.functions[j] for other, j in zip(others, places)]))
         break
     return found
-
-
-def _over(sweep):
-    edp = next((edp for edp in sweep.edps if edp.name == "overturned"), sweep.edps[0])
-    return edp.bins["p_over"]
 
 
 def _picture(designs):
@@ -53,13 +46,13 @@ def _picture(designs):
     fig = style.figure(8.8 if len(drawn) > 1 else 7.4, 4.2)
     axes = fig.subplots(1, len(drawn), sharey=True, squeeze=False)[0]
     for ax, (title, curves) in zip(axes, drawn):
-        for (curve, x, counted), label, colour in zip(curves, designs.labels, COLOURS * len(designs.labels)):
+        for curve, label, colour in zip(curves, designs.labels, COLOURS * len(designs.labels)):
             if np.isfinite(curve["probability"]).any():
                 ax.fill_between(curve["grid"], curve["lower"], curve["upper"], color=colour, alpha=0.14, lw=0)
                 ax.plot(curve["grid"], curve["probability"], color=colour, lw=1.8, ls="-" if curve["adequate"] else "--", label=label)
             else:
                 ax.plot([], [], color=colour, label=label)
-            ax.plot(x, counted, "o", ms=3.6, color=colour, mec="white", mew=0.5)
+            ax.plot(curve["im"], curve["counted"], "o", ms=3.6, color=colour, mec="white", mew=0.5)
         ax.set_title(title, weight="bold", pad=5)
         ax.set(ylim=(0, 1.015), xlim=_view(designs), xlabel=words.with_unit(designs.im_symbol, designs.sweeps[0].im_unit))
         style.grid(ax)

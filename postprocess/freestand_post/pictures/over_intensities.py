@@ -19,14 +19,13 @@ def pictures(results):
 
 
 def _curves(sweep):
-    """[(label, colour, curve, share counted in each bin)]"""
+    """[(label, colour, curve)]"""
     found = []
     if sweep.overturning and np.isfinite(sweep.overturning["probability"]).any():
-        edp = next((edp for edp in sweep.edps if edp.name == "overturned"), sweep.edps[0])
-        found.append(("overturned", style.VERMILION, sweep.overturning, edp.bins["p_over"]))
+        found.append(("overturned", style.VERMILION, sweep.overturning))
     for edp in [edp for edp in sweep.continuous() if edp.functions][:1]:
         for k, colour in zip(chosen_capacities(edp, 2), (style.BLUE, style.GREEN)):
-            found.append((f"{edp.label} > {words.chosen(edp.capacity[k], edp.unit)}", colour, edp.functions[k], edp.surface["empirical"][:, k]))
+            found.append((f"{edp.label} > {words.chosen(edp.capacity[k], edp.unit)}", colour, edp.functions[k]))
     return found
 
 
@@ -38,14 +37,14 @@ def _picture(found):
     for ax in axes.flat[len(found.sweeps):]:
         ax.set_visible(False)
     for ax, sweep in zip(axes.flat, found.sweeps):
-        for label, colour, curve, counted in _curves(sweep):
+        for label, colour, curve in _curves(sweep):
             if np.isfinite(curve["probability"]).any():
                 ax.fill_between(curve["grid"], curve["lower"], curve["upper"], color=colour, alpha=0.14, lw=0)
                 ax.plot(curve["grid"], curve["probability"], color=colour, lw=1.8, ls="-" if curve["adequate"] else "--", label=label,
                         zorder=3 if label == "overturned" else 2)
             else:
                 ax.plot([], [], color=colour, label=label)
-            ax.plot(sweep.centre, counted, "o", ms=3.6, color=colour, mec="white", mew=0.5)
+            ax.plot(curve["im"], curve["counted"], "o", ms=3.6, color=colour, mec="white", mew=0.5)
         ax.set(ylim=(0, 1.015), xlim=sweep.view, xlabel=words.with_unit(sweep.im_symbol, sweep.im_unit))
         style.grid(ax)
     for ax in axes[:, 0]:

@@ -232,9 +232,7 @@ Judge::Products Judge::products(std::size_t i, const Eigen::MatrixXd& M) const {
 // samples, and they those of what the coloured noise is made of (sensor.hpp).
 Eigen::MatrixXd Judge::slow(std::size_t i, const Eigen::MatrixXd& weights) const {
   const double dt_s = test(i).dt_s;
-  Eigen::MatrixXd added(0, 0);
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(parts_->rows[i], weights.cols());  // also of samples that are left out
-  all(parts_->kept[i], Eigen::all) = weights;
+  Eigen::MatrixXd added(0, 0), all;
   Eigen::Index from = 0;
   for (int c = 0; c < channel_count; ++c) {
     const auto channel = static_cast<Channel>(c);
@@ -242,13 +240,17 @@ Eigen::MatrixXd Judge::slow(std::size_t i, const Eigen::MatrixXd& weights) const
     const Sensor& sensor = bench_.sensor(channel);
     const auto rows = static_cast<Eigen::Index>(count);
     if (count > 0 && !sensor.slow_powers.empty()) {
+      if (added.size() == 0) {
+        added.setZero(weights.cols(), weights.cols());
+        all.setZero(parts_->rows[i], weights.cols());  // also of samples that are left out
+        all(parts_->kept[i], Eigen::all) = weights;
+      }
       Eigen::MatrixXd known = all.middleRows(from, rows);
       for (auto column : known.colwise()) sensor.whiten_transposed(column.data(), count, dt_s);
       Eigen::MatrixXd more = known;
       for (auto column : known.colwise()) sensor.colour_transposed(column.data(), count, dt_s);
       const Sensor other = sensor.with_slow_power(more_slow_power);
       for (auto column : more.colwise()) other.colour_transposed(column.data(), count, dt_s);
-      if (added.size() == 0) added.setZero(weights.cols(), weights.cols());
       added += more.transpose() * more - known.transpose() * known;
     }
     from += rows;
