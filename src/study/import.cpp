@@ -196,9 +196,11 @@ class Importer {
       throw Error(
           fmt::format(
               "{}: floor and response have no time in common ({} runs from {:.4g} to {:.4g} s, {} from {:.4g} to "
-              "{:.4g} s): give clock_s, by how much the response is stamped late",
+              "{:.4g} s{}): {} clock_s, by how much the response is stamped late",
               lab.id, lab.floor.path.string(), floor.time.front(), floor.time.back(), lab.response.path.string(),
-              response.time.front(), response.time.back()),
+              response.time.front(), response.time.back(),
+              lab.clock_s ? fmt::format(", less clock_s of {:.4g} s", *lab.clock_s) : "",
+              lab.clock_s ? "correct" : "give"),
           Exit::data);
     const auto count = static_cast<std::size_t>(steps) + 1;
     const auto of = [&](const File& file, const Series& time, const std::optional<LabColumn>& column) {

@@ -209,7 +209,7 @@ class Import(InFolder):
         self.fail_with(2, changed("time: {column: t_ms, unit: ms}, ", ""), "lab.yaml:8", "response.time is missing")
         self.fail_with(2, changed("- id: t02", "- id: t01"), "lab.yaml", "stands twice")
         self.fail_with(3, changed("block_t01.csv", "block_t09.csv"), "block_t09.csv", "cannot be read")
-        self.fail_with(3, changed("    role: calibration", "    clock_s: 1e4\n    role: calibration"), "no time in common")
+        self.fail_with(3, changed("    role: calibration", "    clock_s: 1e4\n    role: calibration"), "no time in common", "less clock_s of 1e+04 s): correct clock_s")
         block = (self.folder / "block_t01.csv").read_text(encoding="utf-8").split("\n")
         self.write("block_t01.csv", "\n".join(block[:40] + [block[40].rsplit(";", 2)[0] + ";NaN;"] + block[41:]))
         self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "NaN in column LVDT 1 is no finite number")
