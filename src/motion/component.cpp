@@ -32,20 +32,33 @@ std::string_view ending(std::string_view word) {
   return {};
 }
 
+// The word at the end of a name: TAB-UP, TAB-V.AT2, RinaldiUP.AT2; empty where it is none for a vertical component.
+std::string_view last_word(std::string_view stem) {
+  const auto pieces = split(stem, "-_. ");
+  if (pieces.empty()) return {};
+  return pieces.size() > 1 && is_vertical_word(pieces.back()) ? pieces.back() : ending(pieces.back());
+}
+
 std::string name_sign(const std::filesystem::path& path) {
   const std::string name = path.filename().string();
   for (const std::string_view part : split(name, "-_. "))
     if (is_channel_code(part)) return fmt::format("its name has {}", part);
-  // CHB002.UD, and UD1, UD2 of KiK-net; TAB-UP, TAB-V.AT2, RinaldiUP.AT2.
+  // CHB002.UD, and UD1, UD2 of KiK-net.
   const std::string extension = lower_case(path.extension().string());
   for (const char* vertical : {".ud", ".ud1", ".ud2", ".up"})
     if (extension == vertical) return fmt::format("its name ends in {}", path.extension().string());
   const std::string stem = path.stem().string();
-  const auto pieces = split(stem, "-_. ");
-  if (pieces.empty()) return "";
-  const bool word = pieces.size() > 1 && is_vertical_word(pieces.back());
-  const std::string_view found = word ? pieces.back() : ending(pieces.back());
+  const std::string_view found = last_word(stem);
   return found.empty() ? "" : fmt::format("its name ends in {}", found);
+}
+
+// Nothing where the header does not say, or the file cannot be read.
+std::optional<std::string> word_of_header(const std::filesystem::path& path) {
+  const RecordText head(path, head_bytes);
+  for (const RecordFormat& format : registry<RecordFormat>())
+    if (format.recognises(head) && format.vertical_word)
+      if (auto word = format.vertical_word(head)) return word;
+  return {};
 }
 
 }  // namespace
@@ -54,18 +67,24 @@ bool is_vertical_word(std::string_view word) {
   return std::find(std::begin(words), std::end(words), lower_case(word)) != std::end(words);
 }
 
+bool is_downward_word(std::string_view word) {
+  const std::string lower = lower_case(word);
+  return lower == "dn" || lower == "dwn" || lower == "down";
+}
+
 std::string vertical_sign(const std::filesystem::path& path) {
   try {
-    const RecordText head(path, head_bytes);
-    for (const RecordFormat& format : registry<RecordFormat>()) {
-      if (!format.recognises(head)) continue;
-      const std::optional<bool> said = format.is_vertical ? format.is_vertical(head) : std::nullopt;
-      if (said) return *said ? "its header says so" : "";
-    }
+    if (const auto word = word_of_header(path)) return word->empty() ? "" : "its header says so";
   } catch (const Error&) {
     return "";
   }
   return name_sign(path);
+}
+
+bool points_down(const std::filesystem::path& path) {
+  const auto word = word_of_header(path);
+  const std::string stem = path.stem().string();
+  return is_downward_word(word && !word->empty() ? std::string_view(*word) : last_word(stem));
 }
 
 }  // namespace freestand::motion

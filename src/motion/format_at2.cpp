@@ -50,18 +50,21 @@ std::string read_unit(const RecordText& text, std::size_t until) {
     const std::size_t place = line.find("units of ");
     if (place == std::string::npos) continue;
     const auto parts = split(std::string_view(line).substr(place + 9), " ,()");
-    if (!parts.empty()) return std::string(parts.front());
+    if (parts.empty()) continue;
+    std::string unit(parts.front());  // "G. FILTER POINTS: ..." in the oldest files
+    while (unit.ends_with('.')) unit.pop_back();
+    return unit;
   }
   return "g";
 }
 
 // The last entry of the line of event, date, station and component: "..., Corralitos, UP".
-std::optional<bool> is_vertical(const RecordText& text) {
+std::optional<std::string> vertical_word(const RecordText& text) {
   for (std::size_t i = 0; i < count_line(text) && i < text.size(); ++i) {
     const auto entries = split(text.line(i), ",");
     if (entries.size() < 3) continue;
     const auto component = split(entries.back(), " \t(");
-    if (!component.empty() && is_vertical_word(component.front())) return true;
+    if (!component.empty() && is_vertical_word(component.front())) return std::string(component.front());
   }
   return {};
 }
@@ -82,7 +85,7 @@ const RegisteredFormat here{{.name = "at2",
                              .summary = "PEER .AT2: NPTS= and DT= in the header, accelerations in g",
                              .recognises = recognises,
                              .read = read,
-                             .is_vertical = is_vertical}};
+                             .vertical_word = vertical_word}};
 
 }  // namespace
 }  // namespace freestand::motion::format_at2

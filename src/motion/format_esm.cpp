@@ -30,7 +30,9 @@ bool recognises(const RecordText& text) {
 }
 
 // The stream is a channel code: HNE, HNN, HNZ.
-std::optional<bool> is_vertical(const RecordText& text) { return entry(text, "STREAM").value.ends_with('Z'); }
+std::optional<std::string> vertical_word(const RecordText& text) {
+  return entry(text, "STREAM").value.ends_with('Z') ? "Z" : "";
+}
 
 RawRecord read(const RecordText& text) {
   const Entry type = entry(text, "DATA_TYPE"), step = entry(text, "SAMPLING_INTERVAL_S");
@@ -52,7 +54,7 @@ const RegisteredFormat here{{.name = "esm",
                              .summary = "ESM ASCII (Engineering Strong Motion database), one channel",
                              .recognises = recognises,
                              .read = read,
-                             .is_vertical = is_vertical}};
+                             .vertical_word = vertical_word}};
 
 }  // namespace
 }  // namespace freestand::motion::format_esm

@@ -59,7 +59,7 @@ const RegisteredFormat here{{.name = "floor_csv",
                                         "[, floor_vertical_acceleration_mps2], constant step",
                              .recognises = recognises,
                              .read = read,
-                             .is_vertical = [](const RecordText&) { return std::optional<bool>(false); }}};
+                             .vertical_word = [](const RecordText&) { return std::optional<std::string>(""); }}};
 
 }  // namespace
 }  // namespace freestand::motion::format_floor_csv

@@ -43,9 +43,9 @@ bool recognises(const RecordText& text) {
 }
 
 // K-NET writes N-S, E-W and U-D; KiK-net 1 to 3 in the borehole and 4 to 6 above it, in the same order.
-std::optional<bool> is_vertical(const RecordText& text) {
+std::optional<std::string> vertical_word(const RecordText& text) {
   const std::string_view direction = entry(text, "Dir.").value;
-  return is_vertical_word(direction) || direction == "3" || direction == "6";
+  return is_vertical_word(direction) || direction == "3" || direction == "6" ? "U-D" : "";
 }
 
 RawRecord read(const RecordText& text) {
@@ -68,7 +68,7 @@ const RegisteredFormat here{{.name = "knet",
                              .summary = "K-NET and KiK-net ASCII, one channel; the mean is taken off",
                              .recognises = recognises,
                              .read = read,
-                             .is_vertical = is_vertical}};
+                             .vertical_word = vertical_word}};
 
 }  // namespace
 }  // namespace freestand::motion::format_knet

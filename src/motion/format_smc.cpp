@@ -24,12 +24,12 @@ std::size_t whole(const RecordText& text, std::size_t line, double value) {
 }
 
 // One of the lines of text ends in "component=   up".
-std::optional<bool> is_vertical(const RecordText& text) {
+std::optional<std::string> vertical_word(const RecordText& text) {
   const std::size_t line = text.find("component=", 0, text_lines);
   if (line >= std::min(text.size(), text_lines)) return {};
   const std::string words = lower_case(text.line(line));
   const auto component = split(std::string_view(words).substr(words.find("component=") + 10), " ");
-  return !component.empty() && is_vertical_word(component.front());
+  return !component.empty() && is_vertical_word(component.front()) ? std::string(component.front()) : "";
 }
 
 RawRecord read(const RecordText& text) {
@@ -51,7 +51,7 @@ const RegisteredFormat here{{.name = "smc",
                              .summary = "USGS SMC accelerogram, one channel, cm/s2",
                              .recognises = recognises,
                              .read = read,
-                             .is_vertical = is_vertical}};
+                             .vertical_word = vertical_word}};
 
 }  // namespace
 }  // namespace freestand::motion::format_smc

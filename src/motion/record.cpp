@@ -9,6 +9,7 @@
 
 #include "base/shown_text.hpp"
 #include "base/units.hpp"
+#include "motion/component.hpp"
 #include "motion/record_format.hpp"
 
 namespace freestand::motion {
@@ -120,6 +121,9 @@ Samples read_samples(const std::filesystem::path& path, const ReadOptions& optio
   if (chosen.values.size() < 2) text.fail("fewer than two samples (no motion): get the whole file");
   const double unit = choose_unit(text, raw, options);
   Samples samples{choose_step(text, raw, options), in_mps2(chosen.values, unit), {}, raw.start};
+  // Channels that are called vertical are turned over where they are read (record_channels.hpp).
+  if (options.component == Component::vertical && !chosen.vertical && points_down(path))
+    for (double& value : samples.horizontal) value = -value;
   for (const RawChannel& channel : raw.channels)
     if (channel.vertical && &channel != &chosen && channel.values.size() == chosen.values.size() &&
         samples.vertical.empty())

@@ -29,8 +29,9 @@ struct RecordFormat {
   std::string summary;                              // one line
   bool (*recognises)(const RecordText&) = nullptr;  // no two formats recognise the same text
   RawRecord (*read)(const RecordText&) = nullptr;
-  // Of formats with one component, from the beginning of the file: is it vertical? Nothing: the header does not say.
-  std::optional<bool> (*is_vertical)(const RecordText&) = nullptr;
+  // Of formats with one component, from the beginning of the file: the word for where a vertical one points, or empty of a horizontal one.
+  // Nothing: the header does not say.
+  std::optional<std::string> (*vertical_word)(const RecordText&) = nullptr;
 };
 
 using RegisteredFormat = Registered<RecordFormat>;

@@ -30,6 +30,8 @@ std::string why_no_pair(const std::vector<const RecordRow*>& of_station) {
                        *b.azimuth_deg);
   if (a.dt_s != b.dt_s || a.unit != b.unit || a.format != b.format || a.channel != b.channel)
     return "its two rows differ in dt_s, unit, format or channel";
+  if (a.weight != b.weight || a.group != b.group || a.vertical != b.vertical)
+    return "its two rows differ in weight, group or vertical";
   if (a.strike_deg != b.strike_deg) return "its two rows differ in strike_deg";
   return "";
 }
@@ -37,8 +39,10 @@ std::string why_no_pair(const std::vector<const RecordRow*>& of_station) {
 RecordRow paired(RecordRow first, const RecordRow& second, const std::vector<RecordNumber>& numbers) {
   first.cross = second.file;
   first.cross_side = side_of(*first.azimuth_deg, *second.azimuth_deg);
+  // What both rows give alike is the station's; intensities, durations and periods are those of one component.
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    if (numbers[i].power != 0) first.numbers[i] = std::numeric_limits<double>::quiet_NaN();
+    if (numbers[i].power != 0 || first.numbers[i] != second.numbers[i])
+      first.numbers[i] = std::numeric_limits<double>::quiet_NaN();
   if (!(first.pulse == second.pulse)) first.pulse = {};
   return first;
 }

@@ -199,7 +199,10 @@ std::optional<RecordNumber> record_number(const std::string& column) {
   const std::string unit = column.ends_with("_km") ? "km" : unit_of(column);
   const int time = unit == "s" ? 1 : 0;  // durations and periods
   if (holds(properties, first)) return RecordNumber{column, unit, 0, 0, time};
-  if (first == "arias" && unit != "1") return RecordNumber{column, unit, 2, 2, -3};  // integral of a^2 over g
+  if (first == "bracketed")
+    return {};  // the time above a level: at another scale of the record it is another one, and none knows which
+  if ((first == "arias" || first == "ia") && unit != "1")
+    return RecordNumber{column, unit, 2, 2, -3};  // integral of a^2 over g
   if (unit == "1") return {};
   for (const Amplitudes& like : amplitudes)
     if (holds(like.units, unit)) return RecordNumber{column, unit, 1, 1, like.time};

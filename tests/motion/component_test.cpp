@@ -41,6 +41,28 @@ TEST_F(VerticalSign, HeadersSayIt) {
   EXPECT_EQ(vertical_sign("no/such-UP.AT2"), "");
 }
 
+// DWN is positive downwards, a vertical floor upwards. What the name says holds where the header gives no direction.
+TEST_F(VerticalSign, DownwardRecordsAreTurnedOver) {
+  const auto at2 = [](const std::string& component) {
+    return "PEER\nSomewhere, 1/1/2000, Station, " + component +
+           "\nACCELERATION IN UNITS OF M/S2\nNPTS= 3, DT= 1.0 SEC\n.1 .2 .3\n";
+  };
+  const std::string one_column = "time_s,floor_acceleration_mps2\n0,.1\n1,.2\n2,.3\n";
+  const auto horizontal = write("one.csv", "time_s,floor_acceleration_mps2\n0,7\n1,8\n2,9\n");
+  const auto vertical = [&](const std::string& name, const std::string& text) {
+    return samples(read_record(horizontal, {.vertical_file = write(name, text).string(), .begin_together = true}),
+                   Channel::vertical);
+  };
+  const std::vector<double> up = {0.1, 0.2, 0.3}, down = {-0.1, -0.2, -0.3};
+  EXPECT_EQ(vertical("a.AT2", at2("UP")), up);
+  EXPECT_EQ(vertical("b.AT2", at2("DWN")), down);
+  EXPECT_EQ(vertical("CPEDWN.AT2", at2("UP")), up);
+  EXPECT_EQ(vertical("CPEDWN.csv", one_column), down);
+  EXPECT_EQ(vertical("CPE-down.csv", one_column), down);
+  EXPECT_EQ(vertical("CPE-UP.csv", one_column), up);
+  EXPECT_EQ(samples(read_record(folder_ / "b.AT2")), up) << "as it stands, where it is read by itself";
+}
+
 TEST_F(VerticalSign, OfAFileWithSeveralChannelsAVerticalOneIsNotTakenForHorizontal) {
   const auto both =
       write("both.csv", "time_s,floor_acceleration_mps2,floor_vertical_acceleration_mps2\n0,1,4\n1,2,5\n2,3,6\n");

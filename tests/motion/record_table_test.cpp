@@ -36,9 +36,9 @@ class Table : public TemporaryFolder {
 
 TEST_F(Table, RowsSayWhatTheFilesDoNot) {
   const RecordTable table = read(
-      "file,dt_s,unit,format,channel,group,pga_g,magnitude_mw,distance_km,arias_mps,vs30_mps,npts\n"
-      "a.csv,0.01,cm/s2,plain,2,loma,0.4,6.9,12,1.5,400,300\n"
-      "more/c.csv,,,,,,,7,n/a,,,200\n");
+      "file,dt_s,unit,format,channel,group,pga_g,magnitude_mw,distance_km,arias_mps,vs30_mps,npts,ia_mps,bracketed_s\n"
+      "a.csv,0.01,cm/s2,plain,2,loma,0.4,6.9,12,1.5,400,300,1.5,9\n"
+      "more/c.csv,,,,,,,7,n/a,,,200,,\n");
   ASSERT_EQ(table.rows.size(), 2U);
   const RecordRow& row = table.rows[0];
   EXPECT_EQ(row.where, path("INDEX.csv").string() + ":2");
@@ -47,7 +47,8 @@ TEST_F(Table, RowsSayWhatTheFilesDoNot) {
   EXPECT_EQ(row.unit + row.format + row.channel + row.group, "cm/s2plain2loma");
   EXPECT_FALSE(table.rows[1].dt_s);
   EXPECT_EQ(table.rows[1].file, path("more/c.csv"));
-  // Amplitudes scale with the record, Arias intensity with its square; magnitude, distance and site do not.
+  // Amplitudes scale with the record, Arias intensity with its square; magnitude, distance and site do not; how the time
+  // above a level changes is not known.
   std::vector<std::string> names, units;
   std::vector<int> powers;
   for (const RecordNumber& number : table.numbers) {
@@ -55,10 +56,10 @@ TEST_F(Table, RowsSayWhatTheFilesDoNot) {
     units.push_back(number.unit);
     powers.push_back(number.power);
   }
-  EXPECT_THAT(names, testing::ElementsAre("pga_g", "magnitude_mw", "distance_km", "arias_mps", "vs30_mps"));
-  EXPECT_THAT(units, testing::ElementsAre("g", "1", "km", "m/s", "m/s"));
-  EXPECT_THAT(powers, testing::ElementsAre(1, 0, 0, 2, 0));
-  EXPECT_THAT(row.numbers, testing::ElementsAre(0.4, 6.9, 12, 1.5, 400));
+  EXPECT_THAT(names, testing::ElementsAre("pga_g", "magnitude_mw", "distance_km", "arias_mps", "vs30_mps", "ia_mps"));
+  EXPECT_THAT(units, testing::ElementsAre("g", "1", "km", "m/s", "m/s", "m/s"));
+  EXPECT_THAT(powers, testing::ElementsAre(1, 0, 0, 2, 0, 2));
+  EXPECT_THAT(row.numbers, testing::ElementsAre(0.4, 6.9, 12, 1.5, 400, 1.5));
   EXPECT_TRUE(std::isnan(table.rows[1].numbers[0]) && std::isnan(table.rows[1].numbers[2]));
 }
 

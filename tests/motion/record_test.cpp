@@ -39,6 +39,13 @@ TEST_F(Record, At2ReadsOldHeadersEightColumnsAndAMissingLastLineEnd) {
                  {0.0063, 0.00364, 0.00099, 0.00428, 0.00758, 0.01087, 0.00682, 0.00277, -0.00128}, g);
 }
 
+TEST_F(Record, At2ReadsTheUnitOfTheOldestHeaders) {
+  const std::string head =
+      "PEER STRONG MOTION DATABASE RECORD\nSOMEWHERE 10/15/79 2316, STATION, 230\n"
+      "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=33.0 Hz\n    7    .00500    NPTS, DT\n";
+  expect_samples(read_record(write("x.AT2", head + seven_text)), 0.005, seven, g);
+}
+
 TEST_F(Record, At2ReadsDosAndOldMacLineEnds) {
   const std::string text = at2_head + "NPTS= 7, DT= .0050 SEC\n" + seven_text + "   \n\n";
   for (const char* line_end : {"\r\n", "\r"}) {

@@ -148,6 +148,17 @@ TEST_F(Pairs, ComeFromTheRowsOfAStation) {
   EXPECT_EQ(pair.numbers[1], 5);             // a distance of both
 }
 
+// Turned out of the same two, in whatever order they stand: durations and periods are those of one component too.
+TEST_F(Pairs, KeepWhatBothRowsGiveAlike) {
+  const std::string header = "file,event,station,azimuth_deg,significant_5_75_s,identified_pulse_period_s,rjb_km\n";
+  for (const char* rows :
+       {"a.AT2,E,S,30,0.9,0.97,5\nb.AT2,E,S,300,1.0,0.38,5\n", "b.AT2,E,S,300,1.0,0.38,5\na.AT2,E,S,30,0.9,0.97,5\n"}) {
+    const RecordTable table = paired(rows, header);
+    EXPECT_TRUE(std::isnan(table.rows[0].numbers[0]) && std::isnan(table.rows[0].numbers[1]));
+    EXPECT_EQ(table.rows[0].numbers[2], 5);
+  }
+}
+
 TEST_F(Pairs, TakeAzimuthsFromNumericComponentsNorthAndEast) {
   const std::string header = "file,event,station,component\n";
   EXPECT_EQ(paired("a.AT2,E,S,NS\nb.AT2,E,S,EW\n", header).rows.front().cross_side, 1);
@@ -162,6 +173,8 @@ TEST_F(Pairs, ThatAreNoneAreRefusedWithTheirRows) {
   EXPECT_THAT(refusal("a.AT2,30\nb.AT2,120\n", "file,azimuth_deg\n"), HasSubstr("no column station"));
   EXPECT_THAT(refusal("a.AT2,E,S,0,g\nb.AT2,E,S,90,m/s2\n", "file,event,station,azimuth_deg,unit\n"),
               HasSubstr("differ in dt_s, unit"));
+  EXPECT_THAT(refusal("a.AT2,E,S,0,9\nb.AT2,E,S,90,1\n", "file,event,station,azimuth_deg,weight\n"),
+              HasSubstr("differ in weight"));
 }
 
 // The two of Corralitos begin together (NGA-West2); the files of Los Gatos were cut each for itself.
