@@ -28,7 +28,7 @@ def _row(risk, row):
     return {"title": words.capitalised(row.title), "rate": words.a_year(row.rate[0]), "interval": _span(words.a_year, *row.rate[1:]),
             "chances": [(chance(value), _span(chance, low, high)) for _, value, low, high in row.in_years],
             "median": words.quantity(row.median_im, risk.im_unit) if math.isfinite(row.median_im) else "–", "sweep": _share(row.outside_sweep), "hazard": _share(row.outside_hazard),
-            "by": "fitted curve" if row.by == "function" else "counted shares", "why": row.why, "refused": row.refused}
+            "by": "counted shares" if row.by != "function" else "fitted curve, with no bin to check it" if row.why.startswith("no bin") else "fitted curve", "why": row.why, "refused": row.refused}
 
 
 def _span(text, low, high):

@@ -64,7 +64,7 @@ std::optional<std::string> word_of_header(const std::filesystem::path& path) {
 }  // namespace
 
 bool is_vertical_word(std::string_view word) {
-  return std::find(std::begin(words), std::end(words), lower_case(word)) != std::end(words);
+  return std::find(std::begin(words), std::end(words), lower_case(word)) != std::end(words) || is_channel_code(word);
 }
 
 bool is_downward_word(std::string_view word) {

@@ -7,7 +7,7 @@
 
 namespace freestand::motion {
 
-// Up, UP, -UP, DWN, UD, U-D, V, Vert ...: words that agencies write for vertical components, whatever the case.
+// Up, UP, -UP, DWN, UD, U-D, V, Vert, HNZ ...: words that agencies write for vertical components, whatever the case.
 bool is_vertical_word(std::string_view word);
 // DWN, Down, DN: positive downwards.
 bool is_downward_word(std::string_view word);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/shown_text.hpp"
+#include "motion/component.hpp"
 
 namespace freestand::motion {
 namespace {
@@ -18,8 +19,7 @@ bool is_downward(const std::string& name) { return starts_with(lower_case(name),
 }  // namespace
 
 RawChannel named_channel(const std::string& name) {
-  return {
-      name, is_downward(name) || starts_with(lower_case(name), {"up", "vert", "v "}) || lower_case(name) == "v", {}};
+  return {name, is_downward(name) || is_vertical_word(name) || starts_with(lower_case(name), {"up", "vert", "v "}), {}};
 }
 
 std::vector<double> oriented(const RawChannel& channel, std::vector<double> values) {

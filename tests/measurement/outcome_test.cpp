@@ -211,6 +211,7 @@ TEST(Outcomes, AnExactSpecimenIsMetAtTheEndOfARange) {
 // Outcomes are steps, so which point is best hangs on which points are looked at. What is predicted for tests left out
 // must not: ranges a little apart, and so other points, and each prediction is nearly the same.
 TEST(Outcomes, PredictionsForTestsLeftOutDoNotJump) {
+  if (!test::long_tests()) GTEST_SKIP() << "three searches of a table: FREESTAND_LONG_TESTS";
   const Dataset data = made_outcomes(120, {});
   const Bench bench(data, 0);
   OutcomeEffort effort;

@@ -1,6 +1,7 @@
 // Vertical components are known by their headers, or by their names where the headers say nothing.
 #include "motion/component.hpp"
 
+#include "motion/record_channels.hpp"
 #include "motion/record_fixture.hpp"
 
 namespace freestand::motion {
@@ -39,6 +40,12 @@ TEST_F(VerticalSign, HeadersSayIt) {
   EXPECT_EQ(sign("one-UP.csv", csv), "") << "the column says that it is horizontal";
   EXPECT_EQ(sign("none.txt", ""), "");
   EXPECT_EQ(vertical_sign("no/such-UP.AT2"), "");
+}
+
+TEST_F(VerticalSign, ChannelsOfAFileGoByTheSameWords) {
+  for (const char* name : {"Up", "UD", "Z", "HNZ", "Vert", "V 90", "Down", "dwn"})
+    EXPECT_TRUE(named_channel(name).vertical) << name;
+  for (const char* name : {"360", "HNE", "90 Deg", "N"}) EXPECT_FALSE(named_channel(name).vertical) << name;
 }
 
 // DWN is positive downwards, a vertical floor upwards. What the name says holds where the header gives no direction.

@@ -72,7 +72,7 @@ class Slurm(InFolder):
     def test_signalled_in_every_phase_it_ends_with_the_bits_of_mpirun(self):
         """The limit's SIGTERM goes to the step, as by --signal=TERM@..., or to the script, as by --signal=B:..."""
         study = self.folder / "study.yaml"
-        study.write_text(slow_fit(study_text(samples=60000)))
+        study.write_text(slow_fit(study_text(samples=60000)).replace("15000", "6000"))
         self.submit(study)
         for times, options in ((1, ["--signal=TERM"]), (2, ["--batch", "--signal=USR1"])):
             before = self.blocks()
