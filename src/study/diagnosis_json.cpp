@@ -136,16 +136,35 @@ double noise_floor(const Bench& bench, const Diagnosis& d) {
 }
 
 // Of the base and of what the verdict names, those that `compare` gives the same fit; of all others by the scores, whatever the refits did.
-// Intervals of outcomes are of another kind.
-void state_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
-  if (outcomes_only(bench.data())) return;
+// Intervals of outcomes are of another kind. Returned: the numbers of the base that draws suit better; empty: none do.
+Values state_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
+  if (outcomes_only(bench.data())) return {};
   std::vector<ModelFit*> named = {&d.base.fit}, others;
   for (Candidate& c : d.candidates)
     if (c.visible) (c.rival ? named : others).push_back(&c.fit);
   if (d.proposal) named.push_back(&d.proposal->fit);
-  for (ModelFit* fit : named)
-    if (!take_intervals(posterior(bench, *fit, jobs), *fit)) others.push_back(fit);
+  Values better;
+  for (ModelFit* fit : named) {
+    const Posterior open = posterior(bench, *fit, jobs);
+    if (!take_intervals(open, *fit)) others.push_back(fit);
+    if (fit == &d.base.fit) better = open.better;
+  }
   widen_by_score(bench, others, jobs);
+  return better;
+}
+
+// `compare` goes on from there (open_numbers() of posterior.hpp), so that it tells other errors of the same base.
+std::string other_base(const ModelFit& base, const Values& better) {
+  std::vector<std::string> here, there;
+  for (std::size_t i = 0; i < better.size(); ++i) {
+    here.push_back(fmt::format("{} = {:.4g}", base.model.free[i].name, base.x[i]));
+    there.push_back(fmt::format("{:.4g}", better[i]));
+  }
+  return fmt::format(
+      "the base is that of the least error, with {}; draws, which allow for what the floor's noise and friction do in "
+      "each test, "
+      "suit the tests better at {}, from where `compare` goes on: its errors of the base are others",
+      fmt::join(here, ", "), fmt::join(there, ", "));
 }
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
@@ -251,8 +270,9 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
   std::vector<const dynamics::Effect*> forms;
   for (const LawForm& form : law_forms()) forms.push_back(&form.effect);
   propose_law(bench, p->model, forms, options, jobs, d);
-  state_intervals(bench, d, jobs);
+  const Values better = state_intervals(bench, d, jobs);
   std::vector<std::string> findings = d.quality.findings;
+  if (!better.empty()) findings.push_back(other_base(d.base.fit, better));
   if (d.best && !d.effects.empty())
     for (std::string& open : undetermined(d.candidates[*d.best].fit)) findings.push_back(std::move(open));
   Json json = {{"format", "freestand-diagnosis/2"},
