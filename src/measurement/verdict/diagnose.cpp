@@ -68,7 +68,7 @@ class Diagnoser : PairSearch {
         out_.sentences.push_back(std::move(met));
     if (out_.verdict == Verdict::unknown)
       if (std::string specimens = several_specimens(bench_); !specimens.empty()) out_.sentences.push_back(specimens);
-    if (out_.verdict == Verdict::unknown) tell_fault_at_its_end();
+    if (out_.verdict == Verdict::unknown) tell_closest_fault();
     name_untried();
     return std::move(out_);
   }
@@ -128,20 +128,19 @@ class Diagnoser : PairSearch {
                       fmt::join(c.effects, " and "), off));
   }
 
-  // Where nothing is enough: does, of all that was tried, the base come closest with what is stated as far off as its tolerance lets it be?
-  void tell_fault_at_its_end() {
+  // Where nothing is named: does, of all that was tried, the base come closest with something stated wrongly?
+  void tell_closest_fault() {
     const Candidate* closest = nullptr;
     for (const Candidate& c : out_.candidates)
       if (c.visible && c.fit.left_out_refitted && (!closest || c.misfit < closest->misfit)) closest = &c;
     if (!closest || !closest->laboratory) return;
     const Free& free = closest->fit.model.free.back();
     const double number = closest->fit.x.back();
-    if (std::min(number - free.lower, free.upper - number) > 1e-3 * (free.upper - free.lower)) return;
-    out_.sentences.push_back(
-        fmt::format("of all that was tried the model comes closest to the tests left out if {}, which is as far as the "
-                    "stated tolerance lets "
-                    "it be off; it may be off by more: measure that again",
-                    fault_sentence(closest->effects.front(), number)));
+    const bool at_its_end = std::min(number - free.lower, free.upper - number) < 1e-3 * (free.upper - free.lower);
+    out_.sentences.push_back(fmt::format(
+        "of all that was tried the model comes closest to the tests left out, to {:.3g}, if {}{}: measure that again",
+        closest->explained, fault_sentence(closest->effects.front(), number),
+        at_its_end ? ", which is as far as the stated tolerance lets it be off; it may be off by more" : ""));
   }
 
   // Is nothing that was tried enough as it is, and the base where all that is stated may be off? Then no effect is needed. Empty: no.
