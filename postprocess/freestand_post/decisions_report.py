@@ -3,7 +3,7 @@ import math
 import pathlib
 
 from . import best_intensity, words
-from .designs import ratio, shown_half, shown_median, verdict, warnings
+from .designs import headline, ratio, shown_half, verdict, warnings
 from .halved import halving
 from .pictures import designs as designs_picture
 from .reading_decisions import Risk, Sensitivity
@@ -159,8 +159,8 @@ def _headline(found):
     row = next((row for row in found.rows if all(math.isfinite(curve["median"]) for curve in row.curves)), None)
     if row is None:
         return []
-    return [(shown_median(sweep, curve), f"median {found.im_symbol} of {row.what}{'' if curve['adequate'] else ', counted'}: {label}")
-            for sweep, curve, label in zip(found.sweeps, row.curves, found.labels)]
+    medians = [headline(sweep, curve, row.what) for sweep, curve in zip(found.sweeps, row.curves)]
+    return [(shown, f"{what}: {label}") for (shown, what), label in zip(medians, found.labels)]
 
 
 def _mark(ratio, *curves):

@@ -207,12 +207,18 @@ def shown_median(sweep, curve):
     """The median as a headline has it, by the counted shares where the curve is not adequate: one beyond what was swept is not known but for
     its side."""
     median = curve["median"] if curve["adequate"] else counted_median(curve)
+    beyond = curve["extrapolated"] if curve["adequate"] else median in (0, math.inf)
     if math.isnan(median):
         return "–"
-    if not curve["extrapolated"] if curve["adequate"] else 0 < median < math.inf:
+    if not beyond:
         return words.quantity(median, sweep.im_unit)
     above = median > (sweep.edge[0] + sweep.edge[-1]) / 2
     return ("> " if above else "< ") + words.chosen(float(f"{sweep.edge[-1 if above else 0]:.3g}"), sweep.im_unit)
+
+
+def headline(sweep, curve, what):
+    """(the median, what it is)"""
+    return shown_median(sweep, curve), f"median {sweep.im_symbol} of {what}{'' if curve['adequate'] else ', counted'}"
 
 
 def shown_half(curve):

@@ -35,7 +35,7 @@ def content(found, figures, risks):
     name = words.capitalised(str(first.summary.get("study_name") or first.folder.resolve().name))
     what, curves = next(((what, curves) for what, curves in found.events if all(_known(curve) for curve in curves)), ("", []))
     return {"title": f"{name}: over {symbols}", "lead": f"One sweep of {words.plural(first.samples, 'sample')}, fitted over {symbols}.",
-            "headline": [(designs.shown_median(sweep, curve), f"median {sweep.im_symbol} of {what}{'' if curve['adequate'] else ', counted'}") for sweep, curve in zip(found.sweeps, curves)],
+            "headline": [designs.headline(sweep, curve, what) for sweep, curve in zip(found.sweeps, curves)],
             "figures": [figure for figure in figures if figure["section"] != "risk"], "rows": list(_rows(found)), "warnings": designs.warnings(found.sweeps, [f"over {sweep.im_symbol}" for sweep in found.sweeps]), "level": found.level, "risks": risks,
             "provenance": [(sweep.im_symbol, f"{sweep.folder.resolve().name}: {words.count(sweep.samples)} samples, seed {sweep.attributes.get('seed', '–')}, "
                             f"freestand {sweep.attributes.get('version', '–')}, {sweep.attributes.get('created_utc', '')}") for sweep in found.sweeps]}

@@ -52,7 +52,7 @@ std::string name_sign(const std::filesystem::path& path) {
   return found.empty() ? "" : fmt::format("its name ends in {}", found);
 }
 
-// Nothing where the header does not say, or the file cannot be read.
+// Nothing where the header does not say. Throws where the file cannot be read.
 std::optional<std::string> word_of_header(const std::filesystem::path& path) {
   const RecordText head(path, head_bytes);
   for (const RecordFormat& format : registry<RecordFormat>())
@@ -69,7 +69,8 @@ bool is_vertical_word(std::string_view word) {
 
 bool is_downward_word(std::string_view word) {
   const std::string lower = lower_case(word);
-  return lower == "dn" || lower == "dwn" || lower == "down";
+  if (is_channel_code(word)) return false;  // DNZ
+  return lower.starts_with("dn") || lower.starts_with("dwn") || lower.starts_with("down");
 }
 
 std::string vertical_sign(const std::filesystem::path& path) {

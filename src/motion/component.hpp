@@ -9,7 +9,7 @@ namespace freestand::motion {
 
 // Up, UP, -UP, DWN, UD, U-D, V, Vert, HNZ ...: words that agencies write for vertical components, whatever the case.
 bool is_vertical_word(std::string_view word);
-// DWN, Down, DN: positive downwards.
+// DWN, Down, DN at the beginning: positive downwards.
 bool is_downward_word(std::string_view word);
 
 // What tells that the record is vertical: "its header says so", or "its name ends in UP" where the header says nothing of

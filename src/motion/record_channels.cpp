@@ -14,16 +14,16 @@ bool starts_with(const std::string& text, std::initializer_list<const char*> beg
   return false;
 }
 
-bool is_downward(const std::string& name) { return starts_with(lower_case(name), {"down", "dn", "dwn"}); }
-
 }  // namespace
 
 RawChannel named_channel(const std::string& name) {
-  return {name, is_downward(name) || is_vertical_word(name) || starts_with(lower_case(name), {"up", "vert", "v "}), {}};
+  return {name,
+          is_downward_word(name) || is_vertical_word(name) || starts_with(lower_case(name), {"up", "vert", "v "}),
+          {}};
 }
 
 std::vector<double> oriented(const RawChannel& channel, std::vector<double> values) {
-  if (is_downward(channel.name))
+  if (is_downward_word(channel.name))
     for (double& value : values) value = -value;
   return values;
 }

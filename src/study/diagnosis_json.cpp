@@ -303,6 +303,8 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
   json["sensors"] = Json::object();
   for (const Channel channel : {Channel::slip, Channel::rotation}) {
     const Sensor& s = bench.sensor(channel);
+    const auto& powers = s.slow_powers;
+    const std::size_t twentieth = powers.size() / 20;
     if (bench.noise(channel) > 0)
       json["sensors"][name(channel)] = {
           {"white", s.white},
@@ -310,7 +312,8 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
           {"correlation_s", s.correlation_s},
           {"drift_per_s", s.drift_per_s},
           {"size_error_ln", s.size_error},
-          {"slow_power_90", s.slow_powers.empty() ? Json(nullptr) : Json{s.slow_powers[2], s.slow_powers[47]}},
+          {"slow_power_90",
+           powers.empty() ? Json(nullptr) : Json{powers[twentieth], powers.end()[-1 - static_cast<long>(twentieth)]}},
           {"quiet_s", s.quiet_s}};
   }
   json["friction_scatter"] = d.own_friction ? Json{{"standard_deviation_ln", d.own_friction->scatter},

@@ -46,6 +46,8 @@ TEST_F(VerticalSign, ChannelsOfAFileGoByTheSameWords) {
   for (const char* name : {"Up", "UD", "Z", "HNZ", "Vert", "V 90", "Down", "dwn"})
     EXPECT_TRUE(named_channel(name).vertical) << name;
   for (const char* name : {"360", "HNE", "90 Deg", "N"}) EXPECT_FALSE(named_channel(name).vertical) << name;
+  for (const char* name : {"Down", "DWN 90", "dn"}) EXPECT_TRUE(is_downward_word(name)) << name;
+  for (const char* name : {"DNZ", "UD", "Up", "V"}) EXPECT_FALSE(is_downward_word(name)) << name;
 }
 
 // DWN is positive downwards, a vertical floor upwards. What the name says holds where the header gives no direction.

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace freestand::measurement {
 namespace {
@@ -85,8 +86,7 @@ struct Judge::Parts {
   std::vector<Eigen::Index> replays;  // how many of them are of replays
   std::vector<Inner> inner;
   std::vector<Eigen::MatrixXd> root;            // C^-1/2 = 1 + A root A^T
-  std::vector<Eigen::Index> rows;               // how many samples
-  std::vector<std::vector<Eigen::Index>> kept;  // of these
+  std::vector<std::vector<Eigen::Index>> kept;  // of all samples
 };
 
 Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, const Jobs& jobs, double limit,
@@ -145,7 +145,6 @@ void Judge::take(const std::vector<Values>& columns, double limit, bool own_fric
     parts->root.push_back(root_part(gram));
     allowed_.push_back(gram.size() ? gram.trace() - parts->inner.back().solve(gram * gram).trace() : 0);
     parts->A.push_back(std::move(A));
-    parts->rows.push_back(rows);
     parts->kept.push_back(std::move(kept));
   }
   parts_ = std::move(parts);
@@ -232,28 +231,25 @@ Judge::Products Judge::products(std::size_t i, const Eigen::MatrixXd& M) const {
 // samples, and they those of what the coloured noise is made of (sensor.hpp).
 Eigen::MatrixXd Judge::slow(std::size_t i, const Eigen::MatrixXd& weights) const {
   const double dt_s = test(i).dt_s;
-  Eigen::MatrixXd added(0, 0), all;
+  const auto& kept = parts_->kept[i];
+  Eigen::MatrixXd added(0, 0);
   Eigen::Index from = 0;
   for (int c = 0; c < channel_count; ++c) {
     const auto channel = static_cast<Channel>(c);
     const std::size_t count = bench_.noise(channel) > 0 ? history(test(i), channel).size() : 0;
     const Sensor& sensor = bench_.sensor(channel);
-    const auto rows = static_cast<Eigen::Index>(count);
-    if (count > 0 && !sensor.slow_powers.empty()) {
-      if (added.size() == 0) {
-        added.setZero(weights.cols(), weights.cols());
-        all.setZero(parts_->rows[i], weights.cols());  // also of samples that are left out
-        all(parts_->kept[i], Eigen::all) = weights;
-      }
-      Eigen::MatrixXd known = all.middleRows(from, rows);
-      for (auto column : known.colwise()) sensor.whiten_transposed(column.data(), count, dt_s);
-      Eigen::MatrixXd more = known;
-      for (auto column : known.colwise()) sensor.colour_transposed(column.data(), count, dt_s);
-      const Sensor other = sensor.with_slow_power(more_slow_power);
-      for (auto column : more.colwise()) other.colour_transposed(column.data(), count, dt_s);
-      added += more.transpose() * more - known.transpose() * known;
-    }
-    from += rows;
+    const Eigen::Index first = std::exchange(from, from + static_cast<Eigen::Index>(count));
+    if (count == 0 || sensor.slow_powers.empty()) continue;
+    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(from - first, weights.cols());  // also of samples that are left out
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      if (first <= kept[k] && kept[k] < from) known.row(kept[k] - first) = weights.row(static_cast<Eigen::Index>(k));
+    sensor.whiten_transposed(known.data(), count, dt_s, static_cast<std::size_t>(known.cols()));
+    Eigen::MatrixXd more = known;
+    const Sensor other = sensor.with_slow_power(more_slow_power);
+    for (auto column : known.colwise()) sensor.colour_transposed(column.data(), count, dt_s);
+    for (auto column : more.colwise()) other.colour_transposed(column.data(), count, dt_s);
+    if (added.size() == 0) added.setZero(weights.cols(), weights.cols());
+    added += more.transpose() * more - known.transpose() * known;
   }
   return added;
 }

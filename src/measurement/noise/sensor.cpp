@@ -94,16 +94,16 @@ std::pair<double, double> correlations_s(const std::vector<QuietStretch>& stretc
   return {dt, std::max(longest, 4 * dt)};
 }
 
-Sensor coloured(const Deviance& deviance, double dt, double longest) {
+Sensor coloured(const Deviance& deviance, double shortest, double longest) {
   const std::vector<Free> free = {free_number("white", 0.01, 100), free_number("coloured", 0.01, 100),
-                                  free_number("correlation", dt, longest)};
+                                  free_number("correlation", shortest, longest)};
   const auto sensor = [](std::span<const double> x) {
     return Sensor{.white = x[0], .coloured = x[1], .correlation_s = x[2]};
   };
   Fitted best{{}, 1e300};
   for (const double white : {0.1, 0.8})
     for (const double share : {0.1, 0.5}) {
-      const Values start = {white, 0.6, dt * std::pow(longest / dt, share)};
+      const Values start = {white, 0.6, shortest * std::pow(longest / shortest, share)};
       const Fitted found = simplex(
           free, [&](std::span<const double> x) { return deviance(sensor(x)); }, start, 0.1, 200);
       if (found.score < best.score) best = found;
@@ -111,7 +111,8 @@ Sensor coloured(const Deviance& deviance, double dt, double longest) {
   return sensor(best.x);
 }
 
-// Of each correlation the likelihood, with the best white and coloured noise beside it, as a share of all.
+// Sensor::slow_powers. Each correlation is as likely as the best white and coloured noise beside it makes it; ten times longer or shorter than
+// the best none is likely at all.
 std::vector<double> slow_powers(const Sensor& best, const Deviance& deviance, double shortest, double longest) {
   constexpr int steps = 40;
   constexpr int values = 50;
@@ -187,13 +188,15 @@ void Sensor::whiten(double* samples, std::size_t count, double dt_s) const {
 }
 
 // Backwards, since what enters a sample enters the expectation of those behind it.
-void Sensor::whiten_transposed(double* weights, std::size_t count, double dt_s) const {
+void Sensor::whiten_transposed(double* weights, std::size_t count, double dt_s, std::size_t series) const {
   const Filter filter(*this, dt_s, count);
-  double of_expected = 0;
-  for (std::size_t i = count; i-- > 0;) {
-    const double of_innovation = weights[i] / std::sqrt(filter.variance[i]);
-    weights[i] = of_innovation + filter.kept * filter.gain[i] * of_expected;
-    of_expected = filter.kept * (1 - filter.gain[i]) * of_expected - of_innovation;
+  for (; series > 0; --series, weights += count) {
+    double of_expected = 0;
+    for (std::size_t i = count; i-- > 0;) {
+      const double of_innovation = weights[i] / std::sqrt(filter.variance[i]);
+      weights[i] = of_innovation + filter.kept * filter.gain[i] * of_expected;
+      of_expected = filter.kept * (1 - filter.gain[i]) * of_expected - of_innovation;
+    }
   }
 }
 

@@ -24,7 +24,8 @@ struct Sensor {
   // Innovations of Kalman's filter over their standard deviations: of noise like this, independent numbers of deviation 1.
   // Linear in the samples.
   void whiten(double* samples, std::size_t count, double dt_s) const;
-  void whiten_transposed(double* weights, std::size_t count, double dt_s) const;
+  void whiten_transposed(double* weights, std::size_t count, double dt_s,
+                         std::size_t series = 1) const;  // one behind the other
   // The coloured noise is L n, n independent numbers: L^T weights, whose squares add up to the variance of the weighted sum.
   void colour_transposed(double* weights, std::size_t count, double dt_s) const;
   // With so many times the power of slow noise, the same of fast noise: coloured^2/correlation_s, which neighbouring samples tell.

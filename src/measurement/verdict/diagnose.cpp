@@ -105,8 +105,7 @@ class Diagnoser : PairSearch {
 
   void name_untried() {
     std::vector<std::string> names;
-    for (const auto* effect : catalogue_)
-      if (goes_with(base_, *effect) && !fewer_numbers_than(tests_, base_, *effect)) names.push_back(effect->name);
+    for (const auto* effect : untried()) names.push_back(effect->name);
     if (const auto& refused = pairs().refused(); !refused.empty())
       names.push_back(fmt::format("{} pair{}, as {} with {}", refused.size(), refused.size() == 1 ? "" : "s",
                                   refused.begin()->first, refused.begin()->second));

@@ -163,6 +163,13 @@ const dynamics::Effect& EffectSearch::of_catalogue(const std::string& name) cons
   return **std::find_if(catalogue_.begin(), catalogue_.end(), [&](const auto* effect) { return effect->name == name; });
 }
 
+Catalogue EffectSearch::untried() const {
+  Catalogue effects;
+  for (const auto* effect : catalogue_)
+    if (goes_with(base_, *effect) && !fewer_numbers_than(tests_, base_, *effect)) effects.push_back(effect);
+  return effects;
+}
+
 EffectSearch::Singles EffectSearch::single_effects() {
   std::vector<const dynamics::Effect*> effects;
   for (const auto* effect : catalogue_)

@@ -70,8 +70,7 @@ class LawSearch : PairSearch {
 
   void name_untried() {
     std::vector<std::string> laws;
-    for (const auto* form : catalogue_)
-      if (goes_with(base_, *form) && !fewer_numbers_than(tests_, base_, *form)) laws.push_back(form->law);
+    for (const auto* form : untried()) laws.push_back(form->law);
     if (!laws.empty())
       diagnosis_.sentences.push_back(fmt::format(
           "laws not tried, since they have more numbers than so few tests can fix: {}", fmt::join(laws, "; ")));
