@@ -65,6 +65,29 @@ TEST(LaboratoryVerdict, AnEffectIsFoundThoughFrictionScatters) {
   EXPECT_GT(d.friction_scatter, 0.01);
 }
 
+// One clock that is off beside a law: the law alone misses that test, and is named with the clock.
+TEST(LaboratoryVerdict, AClockIsToldThoughAnEffectIsHidden) {
+  SetRequest late = request({"viscous_drag"}, "one_late_clock", 6);
+  late.seed = 2704;
+  late.duration_s = 8;
+  const Diagnosis d = diagnosed(late, {"static_friction", "viscous_drag"});
+  EXPECT_EQ(d.verdict, Verdict::bad_data) << testing::PrintToString(d.sentences);
+  EXPECT_TRUE(std::ranges::any_of(d.quality.findings, [](const std::string& s) {
+    return s.find(
+               "the response of test t01 is stamped 0.015 s late against the floor's channel: with that viscous_drag "
+               "leaves") == 0;
+  })) << testing::PrintToString(d.quality.findings);
+}
+
+// Contents that swing make friction steadiest at a lag of 0.095 s in one test, and nearly as steady at others.
+TEST(LaboratoryVerdict, ContentsThatSwingAreNoClock) {
+  SetRequest swinging = request({"moving_contents"}, "coloured_noise", 6);
+  swinging.seed = 2701;
+  swinging.duration_s = 8;
+  const Diagnosis d = diagnosed(swinging, {"static_friction"});
+  EXPECT_EQ(d.verdict, Verdict::unknown) << testing::PrintToString(d.quality.findings);
+}
+
 // A gain that is off by more than its tolerance lets it be is no effect, and what comes closest is told.
 TEST(LaboratoryVerdict, AGainBeyondItsToleranceIsTold) {
   const Diagnosis d = diagnosed(request({}, ""), {"static_friction"}, [](MadeSet& set) {

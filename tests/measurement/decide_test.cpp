@@ -311,6 +311,23 @@ TEST(DecideByChance, AnEffectThatAWidthExplainsAsWellIsAmbiguous) {
   EXPECT_EQ(d.effects, std::vector<std::string>{"reduced_base"});
 }
 
+// The floor's noise fans rocking out, so that effects gain 1e6 in data from the base; the base is refuted all the same, and a width within its
+// tolerance is enough.
+TEST(DecideByChance, AFaultThatTakesARefutedBaseToTheNoiseIsTold) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  for (const double p_of_base : {0.049, 0.051}) {
+    Diagnosis d = undecided(bench, 0);
+    d.candidates = {width_stated_wrongly(bench, 1.0)};
+    d.chances = {chance(help_question, 0.06)};
+    d.chances[0].usual = 1e6;
+    Questions ask = by_misfit();
+    ask.enough = [&](const Candidate& c) { return chance(misfit_question, c.effects.empty() ? p_of_base : 0.3); };
+    decide(bench, d, ask);
+    EXPECT_EQ(d.verdict, p_of_base < chance_level ? Verdict::bad_data : Verdict::none) << p_of_base;
+  }
+}
+
 // Four numbers lower G by 9.5 in one set of twenty.
 TEST(DecideByChance, FrictionThatScattersNeedsNoEffect) {
   const Dataset data = cabinet_tests();

@@ -50,7 +50,7 @@ class Diagnoser : PairSearch {
     fit(singles);
     judge();
     look_for_chance();
-    if (std::string fault = clocks_differ() ? clocks_sentence() : stated_wrongly(); !fault.empty()) {
+    if (std::string fault = clocks_at_fault_.empty() ? stated_wrongly() : clocks_at_fault_; !fault.empty()) {
       out_.quality.findings.push_back(std::move(fault));
       withdraw(out_);
       return std::move(out_);
@@ -129,10 +129,10 @@ class Diagnoser : PairSearch {
 
   // Where nothing is named: does, of all that was tried, the base come closest with something stated wrongly?
   void tell_closest_fault() {
-    const Candidate* closest = nullptr;
+    const Candidate* closest = &out_.base;
     for (const Candidate& c : out_.candidates)
-      if (c.visible && c.fit.left_out_refitted && (!closest || c.misfit < closest->misfit)) closest = &c;
-    if (!closest || !closest->laboratory) return;
+      if (c.visible && c.fit.left_out_refitted && c.misfit < closest->misfit) closest = &c;
+    if (!closest->laboratory) return;
     const Free& free = closest->fit.model.free.back();
     const double number = closest->fit.x.back();
     const bool at_its_end = std::min(number - free.lower, free.upper - number) < 1e-3 * (free.upper - free.lower);
@@ -169,7 +169,7 @@ class Diagnoser : PairSearch {
             [&](const Candidate& c) { return chance_of_another(c); }});
   }
 
-  // Does any effect help? And, of histories, would a friction of its own in each test do as well?
+  // Does any effect help? And, of histories, would a friction or a clock of its own in each test do as well?
   void look_for_chance() {
     std::vector<const ModelFit*> tried;
     for (const Candidate& c : out_.candidates)
@@ -189,57 +189,51 @@ class Diagnoser : PairSearch {
       if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
       if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance()) {
         out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
-        own_clocks_ = own_clocks(bench_, judge, out_.base.fit, jobs_);
+        look_at_clocks(judge, out_.base, std::min(least_misfit(out_), out_.own_friction->misfit));
       }
     };
     ask();
-    if (clocks_differ() || only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
+    if (!clocks_at_fault_.empty() || only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
     judge();
     ask();
   }
 
-  // What every other model leaves at the least.
-  double least_of_all_else() const { return std::min(least_misfit(out_), out_.own_friction->misfit); }
-  // The tests whose clocks differ by more than half a sampling step.
-  std::vector<std::string> late_tests() const {
-    std::vector<std::string> late;
+  // Does a clock of its own in each test take a model to the noise, where all else leaves at least so much?
+  void look_at_clocks(const Judge& judge, const Candidate& c, double least_of_all_else) {
+    const OwnNumbers clocks = own_clocks(bench_, judge, c.fit, jobs_);
+    std::vector<std::string> late;  // by more than half a sampling step
     const auto tests = tests_of(bench_.data(), Role::calibration);
-    for (std::size_t k = 0; own_clocks_ && k < tests.size(); ++k) {
+    for (std::size_t k = 0; k < tests.size(); ++k) {
       const Test& test = bench_.test(tests[k]);
-      const double behind_s = own_clocks_->of_tests[k];
-      if (std::abs(behind_s) > 0.5 * test.dt_s)
-        late.push_back(clock_sentence("the response of test " + test.id + " is stamped", behind_s));
+      if (std::abs(clocks.of_tests[k]) > 0.5 * test.dt_s)
+        late.push_back(clock_sentence("the response of test " + test.id + " is stamped", clocks.of_tests[k]));
     }
-    return late;
-  }
-  // Does a clock of its own in each test take the base to the noise, as no effect does and no friction of its own?
-  bool clocks_differ() const {
-    return !late_tests().empty() && explain_tests(*own_clocks_, total(out_.samples), least_of_all_else());
-  }
-  std::string clocks_sentence() const {
+    if (late.empty() || !explain_tests(clocks, total(out_.samples), least_of_all_else)) return;
     const auto error = [&](double misfit) { return std::sqrt(misfit / total(out_.samples)); };
-    return fmt::format(
-        "{}: with that the model leaves {:.2f} where noise explains 1, and {:.2f} with the best of all else; check the "
+    clocks_at_fault_ = fmt::format(
+        "{}: with that {} leaves {:.2f} where noise explains 1, and {:.2f} with the best of all else; check the "
         "clocks of the channels",
-        fmt::join(late_tests(), ", "), error(own_clocks_->misfit), error(least_of_all_else()));
+        fmt::join(late, ", "), c.effects.empty() ? "the model" : fmt::format("{}", fmt::join(c.effects, " and ")),
+        error(clocks.misfit), error(least_of_all_else));
   }
 
-  std::optional<OwnNumbers> own_clocks_;  // with the base, where it leaves more than chance
-
-  // Where even the best effect leaves more than chance: does it less with a friction of its own in each test, and by more
-  // than one more effect would? Then misfits allow for such a scatter.
+  // Where even the best effect leaves more than chance: does it less with a friction, or a clock, of its own in each test, and by more
+  // than one more effect would? Then misfits allow for such a scatter, or the clocks are at fault.
   bool friction_scatters_beside_the_best() {
     const Candidate& known = best();
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
     const Judge judge = judge_of(known.fit);
     OwnNumbers own = own_friction(bench_, judge, known.fit, jobs_);
     const double least = stated_beside(judge, known.fit).misfit - chance_of_another(known).observed;
-    if (!explain_tests(own, total(judge.samples()), least)) return false;
+    look_at_clocks(judge, known, std::min(least, own.misfit));
+    if (!clocks_at_fault_.empty() || !explain_tests(own, total(judge.samples()), least)) return false;
     out_.friction_scatter = own.scatter;
     out_.own_friction = std::move(own);
     out_.friction_of_base = false;
     return true;
   }
+
+  std::string clocks_at_fault_;  // a sentence; empty: none is
 };
 
 }  // namespace
