@@ -24,6 +24,14 @@ def columns(folder):
         return {name: file["samples"][name][()] for name in file["samples"]}
 
 
+def lines(file):
+    """Of one that comes, and goes when the run ends."""
+    try:
+        return file.read_text().count("\n")
+    except FileNotFoundError:
+        return 0
+
+
 def bins_of(folder, rows):
     """The bin of each sample by the edges of the fit, the outer ones open; the intensity is PTA/(mu g) - 1."""
     with h5py.File(folder / "fragility.h5") as file:
@@ -157,7 +165,7 @@ class Rounds(InFolder):
             study, out = self.write(f"{keep}.yaml", UNTIL + f"keep: {keep}\n"), self.folder / keep
             rounds = out / "blocks" / "run-0000.node-000000.rounds"
             launcher = subprocess.Popen(command(["run", study, "-o", out, "--quiet"], 2), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-            while launcher.poll() is None and (not rounds.exists() or rounds.read_text().count("\n") < 6):
+            while launcher.poll() is None and lines(rounds) < 6:
                 time.sleep(0.002)
             for rank in ranks_of(launcher.pid):
                 os.kill(rank, signal.SIGTERM)

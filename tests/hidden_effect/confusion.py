@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Does the diagnosis name what is hidden? The confusion table, and the rates, over made sets.
 
-    confusion.py -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--ranks 1] [--again]
+    confusion.py -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--rate 200] [--ranks 1] [--again]
                  [--unpicked] [--weak] [--fault drift] [--build build/release]
     confusion.py -o DIR --mixed [--seeds 5] [--first 1] ...      of each seed: nothing, one effect, a weak one, one that no
                  catalogue knows, nothing and an effect before each fault of a laboratory; which effect, the seed says
@@ -55,6 +55,7 @@ def options():
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--tests", type=int, default=10)
     parser.add_argument("--duration", type=float, default=20)
+    parser.add_argument("--rate", type=int, default=200, help="readings of the sensors [Hz]")
     parser.add_argument("--ranks", type=int, default=1)
     parser.add_argument("--unpicked", action="store_true", help="floors as they come, down to such as do not move the specimen")
     parser.add_argument("--weak", action="store_true", help="effects that make 1 to 6 noise units")
@@ -71,7 +72,9 @@ class Wanted:
 
     def __init__(self, effects, seed, fault=None, weak=False):
         self.effects, self.seed, self.fault, self.weak = effects, seed, fault, weak
-        self.name = f"{effects}-{seed}" + ("-weak" if weak else "") + (f"-{fault}" if fault else "")
+
+    def name(self, rate):
+        return f"{self.effects}-{self.seed}" + "-weak" * self.weak + (f"-{rate}hz" if rate != 200 else "") + (f"-{self.fault}" if self.fault else "")
 
 
 # By Weyl's steps through the lists, so that the seeds of a share meet all of them.
@@ -143,16 +146,16 @@ class Bench:
     def made(self, w):
         o = self.options
         subprocess.run([self.make_sets, "-o", self.sets, "--effects", w.effects, "--first", str(w.seed), "--seeds", "1",
-                        "--tests", str(o.tests), "--duration", str(o.duration)] + ["--unpicked"] * o.unpicked +
+                        "--tests", str(o.tests), "--duration", str(o.duration), "--rate", str(o.rate)] + ["--unpicked"] * o.unpicked +
                        ["--weak"] * w.weak + (["--fault", w.fault] if w.fault else []), check=True, capture_output=True)
-        name = w.name
+        name = w.name(o.rate)
         (self.sets / f"{name}.yaml").write_text(STUDY.format(name))
         return name, json.loads((self.sets / "answers.json").read_text())[name]
 
     def one(self, w):
         name, answer = self.made(w)
         result = {"name": name, "effects": w.effects, "seed": w.seed, "tests": self.options.tests,
-                  "duration": self.options.duration, "unpicked": self.options.unpicked, "fault": w.fault, "weak": w.weak, "kind": answer_kind(answer), "twins": answer["twins"],
+                  "duration": self.options.duration, "unpicked": self.options.unpicked, "rate": self.options.rate, "fault": w.fault, "weak": w.weak, "kind": answer_kind(answer), "twins": answer["twins"],
                   "habit": answer["habit"], "plain_error": answer["plain_error_noise_units"]}
         start = time.monotonic()
         done = self.run("diagnose", f"{name}.yaml", "-o", f"{name}.diagnosis", "--overwrite")
@@ -198,7 +201,8 @@ def ladder(study):
 def known(o):
     file = o.output / "results.jsonl"
     lines = [json.loads(line) for line in file.read_text().splitlines()] if file.exists() else []
-    return {r["name"]: r for r in lines if (r["tests"], r["duration"], r.get("unpicked", False)) == (o.tests, o.duration, o.unpicked)}
+    return {r["name"]: r for r in lines
+            if (r["tests"], r["duration"], r.get("rate", 200), r.get("unpicked", False)) == (o.tests, o.duration, o.rate, o.unpicked)}
 
 
 def number(value, form="{:.3g}"):
@@ -298,7 +302,7 @@ def main():
     bench, results = Bench(o), known(o)
     wanted = [] if o.table else bench.wanted()
     for w in wanted:
-        name = w.name
+        name = w.name(o.rate)
         if name in results and not o.again:
             continue
         results[name] = bench.one(w)
@@ -307,7 +311,7 @@ def main():
             file.flush()
             os.fsync(file.fileno())
         print(line(results[name]), flush=True)
-    shown = list(results.values()) if o.table else [results[w.name] for w in wanted]
+    shown = list(results.values()) if o.table else [results[w.name(o.rate)] for w in wanted]
     table(shown)
     rates(shown)
     laws(shown)

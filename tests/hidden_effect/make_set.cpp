@@ -14,7 +14,7 @@
 namespace freestand::test {
 namespace {
 
-constexpr double dt_s = 0.005;     // of the sensors
+constexpr double floor_hz = 200;   // steps of floors
 constexpr double step_s = 2.5e-5;  // of the stepper
 constexpr double followed = 1.15;  // [noise units] error of the truth on the floor as measured
 
@@ -47,7 +47,10 @@ double rescaling(const DrawnTruth& d, const TruthHistory& history) {
 class Maker {
  public:
   Maker(const SetRequest& request, std::uint64_t attempt, double strength)
-      : request_(request), strength_(strength), key_(key_of(request.effects) + attempt * 0x9e3779b97f4a7c15ULL) {}
+      : request_(request),
+        strength_(strength),
+        key_(key_of(request.effects) + attempt * 0x9e3779b97f4a7c15ULL),
+        dt_s_(1 / std::max(floor_hz, request.rate_hz)) {}
 
   MadeSet operator()() {
     KeyedRandom random = numbers(0);
@@ -88,12 +91,12 @@ class Maker {
     return best;
   }
 
-  static void measure(KeyedRandom& random, const MadeSet& set, MadeTest& test) {
+  void measure(KeyedRandom& random, const MadeSet& set, MadeTest& test) const {
     const auto noisy = [&](std::vector<double> values, double deviation) {
       for (double& value : values) value += deviation * random.normal();
       return values;
     };
-    test.measured_floor = {dt_s, noisy(test.floor.horizontal_mps2, set.floor_noise_mps2),
+    test.measured_floor = {dt_s_, noisy(test.floor.horizontal_mps2, set.floor_noise_mps2),
                            noisy(test.floor.vertical_mps2, set.floor_noise_mps2)};
     test.slip_m = noisy(test.truth.slip_m, set.slip_noise_m);
     if (set.drawn.habit != Habit::slides) test.rotation_rad = noisy(test.truth.rotation_rad, set.rotation_noise_rad);
@@ -115,14 +118,14 @@ class Maker {
   FloorSamples draw_floor(KeyedRandom& random, const DrawnTruth& d, bool vertical) const {
     const double which = random.unit();
     const Shaking kind = which < 0.35 ? Shaking::pulse : which < 0.8 ? Shaking::stochastic : Shaking::both;
-    FloorSamples floor{dt_s, draw_shaking(random, kind, {}, dt_s, request_.duration_s), {}};
+    FloorSamples floor{dt_s_, draw_shaking(random, kind, {}, dt_s_, request_.duration_s), {}};
     const double hold = std::min(request_.unpicked ? d.truth.mu_k : d.truth.mu_s, d.width_m / d.height_m);
     const double times = request_.unpicked ? random.uniform(1.2, 3) : random.uniform(1.3, 3.2);
     const double peak_mps2 = standard_gravity_mps2 * hold * times;
     scale(floor, peak_mps2);
     if (!vertical) return floor;
     const bool still = kind == Shaking::pulse && random.chance(0.5);
-    floor.vertical_mps2 = draw_vertical(random, dt_s, floor.horizontal_mps2.size());
+    floor.vertical_mps2 = draw_vertical(random, dt_s_, floor.horizontal_mps2.size());
     const double peak = still ? 0 : std::min(6.0, std::max(2.0, peak_mps2) * random.uniform(0.5, 0.9));
     for (double& value : floor.vertical_mps2) value *= peak;
     return floor;
@@ -131,14 +134,33 @@ class Maker {
   const SetRequest& request_;
   double strength_;
   std::uint64_t key_;
+  double dt_s_;
 };
+
+// Every so many-th reading alone.
+void thin(std::vector<double>& samples, std::size_t every) {
+  for (std::size_t i = 0; i * every < samples.size(); ++i) samples[i] = samples[i * every];
+  samples.resize((samples.size() + every - 1) / every);
+}
+
+void read_slower(MadeSet& set, std::size_t every) {
+  for (MadeTest& test : set.tests) {
+    for (auto* samples : {&test.measured_floor.horizontal_mps2, &test.measured_floor.vertical_mps2, &test.slip_m,
+                          &test.rotation_rad, &test.truth.slip_m, &test.truth.rotation_rad})
+      thin(*samples, every);
+    test.measured_floor.dt_s *= static_cast<double>(every);
+    test.truth.dt_s *= static_cast<double>(every);
+    test.truth_error = error_of(set, test, simulate(set.drawn.truth, test.measured_floor, step_s));
+  }
+}
 
 }  // namespace
 
 std::string set_name(const SetRequest& request) {
   std::string name;
   for (const std::string& effect : request.effects) name += (name.empty() ? "" : "+") + effect;
-  return (name.empty() ? "none" : name) + "-" + std::to_string(request.seed) + (request.weak ? "-weak" : "");
+  return (name.empty() ? "none" : name) + "-" + std::to_string(request.seed) + (request.weak ? "-weak" : "") +
+         (request.rate_hz == floor_hz ? "" : "-" + std::to_string(std::lround(request.rate_hz)) + "hz");
 }
 
 namespace {
@@ -184,6 +206,7 @@ MadeSet weak_set(const SetRequest& request) {
 MadeSet make_set(const SetRequest& request) {
   MadeSet set = request.weak ? weak_set(request) : strong_set(request);
   if (!request.fault.empty()) spoil(set, request.fault, {request.seed, key_of({request.fault})}, step_s);
+  if (request.rate_hz < floor_hz) read_slower(set, static_cast<std::size_t>(std::lround(floor_hz / request.rate_hz)));
   return set;
 }
 

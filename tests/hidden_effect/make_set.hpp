@@ -11,6 +11,9 @@
 // floor as measured, misses them. One calibration test in five may be such a one; of the others and of all held-out
 // tests the truth stays within 1.15 noise units, so that there is something a model can be asked for. A set that is
 // unpicked has floors as they come: a contact that just holds, or just does not, is where rivals come close.
+//
+// Floors have steps of 5 ms, or of the sensors where these read faster. Sensors that read slower filter nothing, and what the floor
+// does between their readings is lost.
 #pragma once
 
 #include <cstdint>
@@ -31,6 +34,7 @@ struct SetRequest {
   double duration_s = 20;  // mean length of a stochastic motion
   double least_error = 6;  // without any of the effects [noise units]: weaker draws are made again, eight at most
   bool weak = false;       // effects as weak as make 1 to 6 noise units, evenly by the logarithm
+  double rate_hz = 200;    // of the sensors: a whole multiple or part of 200
   bool unpicked = false;   // floors of 1.2 to 3 mu g as they come, whatever they do
   std::string fault = {};  // of the laboratory (laboratory.hpp); none: it is as stated
 };
@@ -39,8 +43,8 @@ struct MadeTest {
   std::string id;
   bool holdout = false;
   FloorSamples floor;                        // as it was
-  TruthHistory truth;                        // without noise
-  FloorSamples measured_floor;               // with noise
+  TruthHistory truth;                        // without noise, at the sensors' readings
+  FloorSamples measured_floor;               // with noise, as the sensors read it
   std::vector<double> slip_m, rotation_rad;  // with noise; rotation_rad empty where the block only slides
   double truth_error = 0;  // [noise units] of the truth itself on the floor as measured: no model can do better
 };
@@ -57,7 +61,7 @@ struct MadeSet {
   std::vector<MadeTest> tests;
 };
 
-// "none-3", "static_friction+floor_tilt-1", "none-3-drift", "static_friction-3-weak".
+// "none-3", "static_friction+floor_tilt-1", "none-3-drift", "static_friction-3-weak", "none-3-50hz".
 std::string set_name(const SetRequest& request);
 
 // Throws std::invalid_argument on an effect that does not exist.

@@ -84,6 +84,28 @@ TEST(MakeSet, NoiseIsAsLargeAsTold) {
     }
 }
 
+// At 50 Hz every fourth of the readings at 200 Hz, to the bit; at 1000 Hz other floors.
+TEST(MakeSet, SensorsReadAtTheirRate) {
+  SetRequest request{{"static_friction"}, 3, 3, 6};
+  const MadeSet usual = make_set(request);
+  request.rate_hz = 50;
+  const MadeSet slow = make_set(request);
+  request.rate_hz = 1000;
+  const MadeSet fast = make_set(request);
+  EXPECT_EQ(slow.name, usual.name + "-50hz");
+  for (std::size_t i = 0; i < usual.tests.size(); ++i) {
+    const MadeTest &at_200 = usual.tests[i], &at_50 = slow.tests[i], &at_1000 = fast.tests[i];
+    EXPECT_DOUBLE_EQ(at_50.measured_floor.dt_s, 0.02);
+    EXPECT_DOUBLE_EQ(at_1000.measured_floor.dt_s, 0.001);
+    for (std::size_t k = 0; k < at_50.slip_m.size(); ++k) {
+      EXPECT_EQ(at_50.slip_m[k], at_200.slip_m[4 * k]);
+      EXPECT_EQ(at_50.measured_floor.horizontal_mps2[k], at_200.measured_floor.horizontal_mps2[4 * k]);
+    }
+    EXPECT_GE(4 * at_50.slip_m.size(), at_200.slip_m.size());
+    EXPECT_NEAR(deviation(at_1000.slip_m, at_1000.truth.slip_m) / fast.slip_noise_m, 1, 0.08);
+  }
+}
+
 TEST(MakeSet, TestsMoveAsOnShakeTables) {
   for (const char* effect : {"static_friction", "reduced_base", "pressure_friction", "stick_ageing"}) {
     const MadeSet set = make_set({{effect}, 3, 6, 4});

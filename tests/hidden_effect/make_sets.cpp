@@ -1,4 +1,4 @@
-// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--unpicked] [--weak] [--fault drift]:
+// make_sets -o DIR [--seeds 5] [--first 1] [--effects a,b,c+d] [--tests 10] [--duration 20] [--rate 200] [--unpicked] [--weak] [--fault drift]:
 // measurement sets DIR/<effect>-<seed>/, and what is hidden in them in DIR/answers.json. make_sets --list: what is hidden by default.
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ struct Options {
   std::vector<std::string> effects = default_effects();
   std::uint64_t seeds = 5, first = 1;
   int tests = 10;
-  double duration_s = 20;
+  double duration_s = 20, rate_hz = 200;
   bool list = false, unpicked = false, weak = false;
   std::string fault;
 };
@@ -36,6 +36,7 @@ void make(const Options& options) {
       SetRequest request{split_effects(effects), seed, options.tests, options.duration_s};
       request.unpicked = options.unpicked;
       request.weak = options.weak;
+      request.rate_hz = options.rate_hz;
       request.fault = options.fault;
       const MadeSet set = make_set(request);
       write_set(set, options.folder / set.name);
@@ -61,6 +62,8 @@ int main(int count, char** words) {
   parser.add_option("--tests", options.tests, "tests of a set")->check(CLI::Range(2, 99));
   parser.add_option("--duration", options.duration_s, "mean length of a stochastic motion [s]");
   parser.add_flag("--weak", options.weak, "effects that make 1 to 6 noise units");
+  parser.add_option("--rate", options.rate_hz, "readings of the sensors [Hz]")
+      ->check(CLI::IsMember({50.0, 100.0, 200.0, 400.0, 1000.0, 2000.0}));
   parser.add_flag("--unpicked", options.unpicked, "floors as they come, down to such as do not move the specimen");
   parser.add_option("--fault", options.fault, "of the laboratory that measures")
       ->check(CLI::IsMember(freestand::test::laboratory_faults()));

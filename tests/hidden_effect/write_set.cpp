@@ -20,7 +20,7 @@ std::string dataset_text(const MadeSet& set) {
       "format: freestand-measurements/1\nname: {}\nspecimen:\n  width_m: {:.4f}\n  height_m: {:.4f}\n  mass_kg: "
       "{:.1f}\nsampling_dt_s: {}\nnoise:\n  slip_m: {:.6f}\n  rotation_rad: {:.6f}\ntests:\n",
       set.name, set.stated_width * set.drawn.width_m, set.drawn.height_m, set.drawn.mass_kg,
-      set.tests.front().floor.dt_s, set.stated_noise * set.slip_noise_m, set.stated_noise * set.rotation_noise_rad);
+      set.tests.front().measured_floor.dt_s, set.stated_noise * set.slip_noise_m, set.stated_noise * set.rotation_noise_rad);
   for (const MadeTest& test : set.tests)
     text += fmt::format("  - id: {0}\n    file: {0}.csv\n    role: {1}\n", test.id,
                         test.holdout ? "holdout" : "calibration");
