@@ -204,9 +204,10 @@ double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const
   return annual_rate(hazard, {first.im * std::exp(-low * dispersion), dispersion}, range);
 }
 
-double ByCounts::unknown_above() const {
-  const std::size_t last = bins_.size() - 1;
-  const double p = bins_[last].probability;
+double ByCounts::unknown_above(double im) const {
+  std::size_t last = bins_.size() - 1;
+  while (last > 0 && bins_[last].im > im) --last;
+  const double p = curve(bins_, Shape(f_))(im);
   for (std::size_t i = 0; i < last; ++i)
     if (edp_.surface.empirical_lower[at(i)] > edp_.surface.empirical_upper[at(last)]) return p;
   return 1 - p;

@@ -40,9 +40,9 @@ class ByCounts {
   // P below the lowest bin (or fine cell, of what has no curve that grows): the counted share is followed down along the lognormal through it and
   // the next one with a larger share; it stays where there is none, and is 0 where nothing was counted.
   double rate_below(const HazardCurve&, const Range&) const;
-  // By how much P above the last bin may differ from its share, at which it is kept: it may rise to 1, or, where it has fallen from a lower
-  // intensity on by more than the limits of both, fall to 0.
-  double unknown_above() const;
+  // By how much P above an intensity may differ from what it is there, at which it is kept: it may rise to 1, or, where it has fallen from
+  // a lower intensity on by more than the limits of both, fall to 0.
+  double unknown_above(double im) const;
 
   // An upper limit of a higher intensity (or a lower one of a lower) was taken for one in which nothing (or all) was counted.
   bool bounded_by_others() const { return bounded_by_others_; }

@@ -141,8 +141,8 @@ class Row {
       missing = annual_rate(longer, fragility(), before) + end * (1 - fragility()(hazard_.last()));
     } else {
       beyond = counts_.rate_below(hazard_, {0, risk_.im_least});
-      if (hazard_.last() > risk_.im_most) beyond += hazard_.rate(risk_.im_most) * counts_.unknown_above();
-      missing = counts_.rate_below(longer, before) + end * counts_.unknown_above();
+      if (hazard_.last() > risk_.im_most) beyond += hazard_.rate(risk_.im_most) * counts_.unknown_above(risk_.im_most);
+      missing = counts_.rate_below(longer, before) + end * counts_.unknown_above(hazard_.last());
     }
     row_.outside_sweep = function ? beyond / rate : rate + beyond > 0 ? beyond / (rate + beyond) : 0;
     row_.outside_hazard = rate + missing > 0 ? missing / (rate + missing) : 0;

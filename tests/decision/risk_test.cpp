@@ -278,6 +278,26 @@ TEST(Risk, WhatComesFromBeyondTheHazardCurveIsWarnedOfOrRefused) {
   EXPECT_GT(late.outside_hazard, outside_to_warn_of);
 }
 
+// By counts, of a demand whose share levels off at 0.5: above the end of the hazard curve, at which 0.25 exceed it, all may.
+TEST(Risk, CountsMissWhatTheHazardCurveEndsBefore) {
+  Sweep sweep;
+  sweep.records = 200;
+  sweep.per_record = 200;
+  sweep.median = 0.3;
+  sweep.between = sweep.within = 0.2;
+  sweep.ceiling = 0.5;
+  const fragility::Result result = sweep.fit(3, 200);
+  for (const double end : {0.3, 0.6}) {
+    const RiskRow row = risk(result, power_law(1e-4, 2, 0.01, end)).rows.at(0);
+    ASSERT_EQ(row.recommended, By::counts);
+    const double beyond = 1e-4 / (end * end),
+                 there = 0.5 * gsl_cdf_ugaussian_P(std::log(end / 0.3) / sweep.dispersion()),
+                 missing = beyond * (1 - there);
+    EXPECT_NEAR(row.outside_hazard, missing / (row.by_counts.value + missing), 0.02) << end;
+    EXPECT_EQ(row.refused.empty(), row.outside_hazard <= 0.5) << row.refused;
+  }
+}
+
 TEST(Risk, NothingCountedIsAZeroWithItsLimit) {
   Sweep sweep;
   sweep.median = 1e6;
