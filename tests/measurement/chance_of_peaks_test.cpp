@@ -85,6 +85,51 @@ TEST(ChanceOfPeaks, SaysWhichOfTwoMadeTheData) {
   EXPECT_GT(chance_of_lead_of_peaks(bench, tilt, drag, run_here).p, 0.3);
 }
 
+// Tests whose floors do not move the block, and a rotation of 0 beside each slip, say nothing of how far slips stray: p and intervals are what
+// they are without them.
+TEST(ChanceOfPeaks, WhatIsStillSaysNothingOfScatter) {
+  const Dataset plain = peaks_of(test::cabinet(), 0.25, 4);
+  Dataset with_still = plain, with_rotations = plain;
+  for (int i = 0; i < 24; ++i) {
+    measurement::Test& still = with_still.tests.emplace_back(plain.tests[0]);
+    still.id = std::string("s").append(std::to_string(i));
+    still.motion = test::swings(1, 0.4 + 0.02 * i);
+    still.peaks.peak_slip_m = 0;
+  }
+  for (measurement::Test& test : with_rotations.tests) test.peaks.peak_rotation_rad = 0;
+  const Chance expected = gain(plain);
+  const auto opened = [](const Dataset& data) {
+    const Bench bench(data, 0);
+    return posterior(bench, fitted_to_peaks(bench, test::free_friction(), {0.2}), run_here);
+  };
+  const Posterior open = opened(plain);
+  for (const Dataset* data : {&with_still, &with_rotations}) {
+    const Chance found = gain(*data);
+    EXPECT_NEAR(found.observed, expected.observed, 0.01);
+    EXPECT_NEAR(found.p, expected.p, 0.02);
+    const Posterior other = opened(*data);
+    EXPECT_DOUBLE_EQ(other.freedom, open.freedom);
+    EXPECT_NEAR((other.interval(0, 0.9).upper - other.interval(0, 0.9).lower) /
+                    (open.interval(0, 0.9).upper - open.interval(0, 0.9).lower),
+                1, 0.15);
+  }
+}
+
+// Peaks and residuals that stray each by itself: p is spread evenly all the same. (As if one test's strayed together, 9 of 10 were beyond 0.9.)
+TEST(ChanceOfPeaks, HasItsSizeWherePeaksOfATestStrayApart) {
+  const int sets = test::repeats_asked(20);
+  int high = 0;
+  for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key) {
+    Dataset data = peaks_of(test::cabinet(), 0.15, key);
+    test::KeyedRandom random(52, key);
+    for (measurement::Test& test : data.tests)
+      test.peaks.residual_slip_m =
+          std::abs(respond(test::cabinet(), test.shaking()).residual_slip_m) * std::exp(0.15 * random.normal());
+    high += gain(data).p > 0.9;
+  }
+  EXPECT_LE(high, test::likely_counts(sets, 0.1).most);
+}
+
 // The intervals and the band of another peak hold as often as they say: of 40 sets 90 % are 29 to 40 but for one run in a thousand.
 TEST(PosteriorOfPeaks, HoldsTheTruthAndAnotherPeak) {
   const int sets = test::repeats_asked(20);

@@ -21,14 +21,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // The rows as another test would have them: its own friction, and its own placement of the specimen. By how much friction scatters is known
-// from n tests, so that another one lies off their mean by that times Student's t of n - 1: of three tests normal deviates would hold it in
-// 83 of 100 cases where 90 are meant.
-void leave_the_mean(const Bench& bench, const ModelFit& fit, Posterior& out) {
+// from n tests that tell of it, so that another one lies off their mean by that times Student's t of n - 1 = nu/p: of three tests normal
+// deviates would hold it in 83 of 100 cases where 90 are meant.
+void leave_the_mean(const ModelFit& fit, Posterior& out) {
   std::sort(out.of_mean.begin(), out.of_mean.end());
   out.draws = out.of_mean;
   const int placed = placement_number(fit.model);
-  const auto tests = static_cast<double>(tests_of(bench.data(), Role::calibration).size());
-  const auto student = [&](double z) { return tests > 1 ? gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(z), tests - 1) : z; };
+  const double freedom = std::max(1.0, out.freedom / std::max<double>(static_cast<double>(fit.x.size()), 1));
+  const auto student = [&](double z) { return gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(z), freedom); };
   for (std::size_t s = 0; s < out.draws.size(); ++s) {
     Values& x = out.draws[s];
     const double friction = std::exp(out.friction_scatter * student(random::standard_normal(39, s, 0)));
@@ -141,7 +141,9 @@ Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
     for (const Values& answer : answers) G.push_back(answer[0]);
     return G;
   };
-  out.freedom = n - p;
+  TellingTests telling;
+  for (const std::size_t i : tests) telling.add(ln_ratios(bench, i, predict(fit.model, bench.test(i), fit.x)));
+  out.freedom = telling.count() - p;
   measure_discrepancy(bench, fit, tests, out);
   if (out.freedom < 1 || fit.x.empty()) return out;
   out.dispersion = std::sqrt(misfits({fit.x}).front() / out.freedom);
@@ -210,7 +212,7 @@ Posterior posterior(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
       out.of_mean = fit.resampled;
       break;
   }
-  leave_the_mean(bench, fit, out);
+  leave_the_mean(fit, out);
   return out;
 }
 

@@ -14,7 +14,8 @@
 // has a direction f_i = d history/d ln mu beside the floor's replays in C_i), and kept where its absence has a p value below 5 %.
 // A draw is then the friction of another test: the mean's, times exp(tau z).
 //
-// Peaks: G is the sum of the tests' scores, s^2 = G(fit)/(n - p), nu = n - p. Outcomes: the fits to resampled tests.
+// Peaks: G is the sum of the tests' scores, s^2 = G(fit)/(n - p), nu = n - p, of the n tests whose peaks tell by how much the model is off.
+// Outcomes: the fits to resampled tests.
 //
 // Drawn by importance: points from a Student's density with five degrees of freedom, and one in ten from anywhere; the density is
 // fitted to their weights and drawn from again, until three in ten count and none of its tails is needed. Samples that the floor's

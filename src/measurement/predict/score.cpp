@@ -152,6 +152,13 @@ std::vector<double> ln_ratios(const Bench& bench, std::size_t i, const Predictio
   return ratios;
 }
 
+void TellingTests::add(std::span<const double> ln_ratios) {
+  if (ln_ratios.empty()) return;
+  const auto telling = std::ranges::count_if(ln_ratios, [](double ratio) { return ratio != 0; });
+  const double share = static_cast<double>(telling) / static_cast<double>(ln_ratios.size());
+  shares += share, squares += share * share;
+}
+
 bool fell(const Test& test) { return test.peaks.overturned.value_or(false); }
 
 bool peaks_compare(const Test& test, const Response& model) {

@@ -44,6 +44,15 @@ bool peaks_compare(const Test&, const Response& model);
 // score. Of a test that fell one value.
 std::vector<double> ln_ratios(const Bench&, std::size_t test, const Prediction&);
 
+// Tests whose peaks tell by how much a model is off. What was still in both, or fell in both, keeps a bound, and its ratio is 0 whatever the
+// model's numbers.
+struct TellingTests {
+  double shares = 0, squares = 0;  // of the peaks of each test, whose weight is one together
+
+  void add(std::span<const double> ln_ratios);
+  double count() const { return squares > 0 ? shares * shares / squares : 0; }  // of as many that say equally much
+};
+
 // Does a channel of the test's histories, or any of slip and rotation, exceed eight times its noise?
 bool moves(const Bench&, std::size_t test, Channel);
 bool moves(const Bench&, std::size_t test);

@@ -53,22 +53,53 @@ class Ratios {
     for (Index k = 0; k < slopes.cols(); ++k) slopes.col(k) = (at.col(2 * k + 1) - at.col(2 * k)) / (2 * step);
     return basis(slopes);
   }
-  Index tests() const { return static_cast<Index>(tests_.size()); }
   Index count() const { return std::accumulate(peaks_.begin(), peaks_.end(), Index{0}); }
 
-  // One normal deviate a test.
-  VectorXd noise(std::uint64_t s) const {
-    VectorXd e(count());
-    Index at = 0;
-    for (std::size_t t = 0; t < peaks_.size(); ++t) {
-      e.segment(at, peaks_[t])
-          .setConstant(random::standard_normal(23, s, t) / std::sqrt(static_cast<double>(peaks_[t])));
-      at += peaks_[t];
-    }
+  // How peaks stray from a model where they are off by these.
+  struct Straying {
+    VectorXd off;
+    TellingTests telling;
+    double together = 1;  // share of the variance that the peaks of one test have in common
+  };
+  Straying straying(const VectorXd& off) const {
+    Straying s{.off = off, .telling = {}};
+    double square = 0, within = 0, peaks = 0, pairs = 0;
+    for_each_test([&](std::size_t, Index at, Index all) {
+      const VectorXd of_test = off.segment(at, all);
+      s.telling.add({of_test.data(), static_cast<std::size_t>(all)});
+      const auto n = static_cast<double>((of_test.array() != 0).count());
+      const double mean = n > 0 ? of_test.sum() / n : 0;
+      peaks += n, square += static_cast<double>(all) * of_test.squaredNorm();
+      if (n < 2) return;
+      pairs += n - 1;
+      within += static_cast<double>(all) * (of_test.squaredNorm() - n * mean * mean);
+    });
+    if (pairs > 0 && square > 0) s.together = std::clamp(1 - within / pairs / (square / peaks), 0.0, 1.0);
+    return s;
+  }
+
+  // One normal deviate a test, and one a peak.
+  VectorXd noise(std::uint64_t s, const Straying& how) const {
+    VectorXd e = VectorXd::Zero(count());
+    const double common = std::sqrt(how.together), own = std::sqrt(1 - how.together);
+    for_each_test([&](std::size_t t, Index at, Index all) {
+      const double of_test = random::standard_normal(23, s, t);
+      for (Index k = at; k < at + all; ++k)
+        if (how.off[k] != 0)
+          e[k] =
+              (common * of_test + (own > 0 ? own * random::standard_normal(24, s, static_cast<std::uint64_t>(k)) : 0)) /
+              std::sqrt(static_cast<double>(all));
+    });
     return e;
   }
 
  private:
+  // use(test, place of its first peak, its peaks).
+  template <class Use>
+  void for_each_test(Use&& use) const {
+    Index at = 0;
+    for (std::size_t t = 0; t < peaks_.size(); at += peaks_[t++]) use(t, at, peaks_[t]);
+  }
   static MatrixXd basis(const MatrixXd& columns) {
     if (columns.cols() == 0) return columns;
     const Eigen::ColPivHouseholderQR<MatrixXd> solved(columns);
@@ -104,7 +135,8 @@ Chance chance_of_gain_of_peaks(const Bench& bench, const ModelFit& base, const s
     return left.squaredNorm() > 0 ? most * most / left.squaredNorm() : 0;
   };
   Chance chance{.question = help_question, .about = {}, .observed = largest_share(measured)};
-  weigh(chance, [&](std::uint64_t s) { return largest_share(ratios.noise(s)); });
+  const auto how = ratios.straying(measured);
+  weigh(chance, [&](std::uint64_t s) { return largest_share(ratios.noise(s, how)); });
   return chance;
 }
 
@@ -118,14 +150,15 @@ Chance chance_of_lead_of_peaks(const Bench& bench, const ModelFit& best, const M
     const double a = beyond(of_best, y).squaredNorm(), b = beyond(of_rival, y - apart).squaredNorm();
     return b > 0 ? 1 - a / b : 0;
   };
-  // Of a test, whose weight is one whatever it counts of peaks.
-  const double freedom = std::max<double>(static_cast<double>(ratios.tests() - of_rival.cols()), 1);
-  const double scatter = std::sqrt(beyond(of_rival, at.col(1)).squaredNorm() / freedom);
+  const auto scatter = [](const MatrixXd& numbers, const Ratios::Straying& how) {
+    const double n = how.telling.count(), freedom = std::max(n - static_cast<double>(numbers.cols()), 1.0);
+    return n > 0 ? std::sqrt(beyond(numbers, how.off).squaredNorm() / (freedom * how.telling.shares / n)) : 0;
+  };
+  const auto from_best = ratios.straying(at.col(0)), from_rival = ratios.straying(at.col(1));
+  const double of_best_itself = scatter(of_best, from_best), of_rival_itself = scatter(of_rival, from_rival);
   Chance chance{.question = lead_question, .about = {}, .observed = lead(-at.col(0))};
-  weigh(chance, [&](std::uint64_t s) { return lead(apart + scatter * ratios.noise(s)); });
-  const double of_itself = std::sqrt(beyond(of_best, at.col(0)).squaredNorm() /
-                                     std::max<double>(static_cast<double>(ratios.tests() - of_best.cols()), 1));
-  weigh_power(chance, [&](std::uint64_t s) { return lead(of_itself * ratios.noise(s)); });
+  weigh(chance, [&](std::uint64_t s) { return lead(apart + of_rival_itself * ratios.noise(s, from_rival)); });
+  weigh_power(chance, [&](std::uint64_t s) { return lead(of_best_itself * ratios.noise(s, from_best)); });
   if (chance.observed <= 0) chance.p = 1;  // no lead
   return chance;
 }

@@ -1,6 +1,6 @@
 // chance.hpp for tests that say their peaks alone. How far a peak strays is not known beforehand: what counts is by which share the
 // sum S of the squared ln ratios falls, and data are made from a model with its own scatter, the peaks of one test astray
-// together.
+// together as far as those that were measured are. Peaks that are 0 in both, or of what fell in both, stray in no data.
 #pragma once
 
 #include "measurement/verdict/chance.hpp"
