@@ -79,6 +79,19 @@ TEST(LaboratoryVerdict, AClockIsToldThoughAnEffectIsHidden) {
   })) << testing::PrintToString(d.quality.findings);
 }
 
+// A floor that was read at 50 Hz: what it did between its readings changes a history by ten times the noise, and is no law.
+TEST(LaboratoryVerdict, AFloorThatIsReadSeldomIsNoEffect) {
+  SetRequest seldom = request({}, "", 6);
+  seldom.seed = 2904;
+  seldom.duration_s = 8;
+  seldom.rate_hz = 50;
+  const Diagnosis d = diagnosed(seldom, {"static_friction", "directional_friction"});
+  EXPECT_EQ(d.verdict, Verdict::none) << testing::PrintToString(d.sentences);
+  EXPECT_TRUE(std::ranges::any_of(d.quality.findings, [](const std::string& s) {
+    return s.find("the floor of test t02 was read every 0.02 s") == 0;
+  })) << testing::PrintToString(d.quality.findings);
+}
+
 // Contents that swing make friction steadiest at a lag of 0.095 s in one test, and nearly as steady at others.
 TEST(LaboratoryVerdict, ContentsThatSwingAreNoClock) {
   SetRequest swinging = request({"moving_contents"}, "coloured_noise", 6);

@@ -82,7 +82,8 @@ Eigen::VectorXd change_with_friction(const Bench& bench, ModelSpec model, Values
 }  // namespace
 
 struct Judge::Parts {
-  std::vector<Eigen::MatrixXd> A;     // columns of replays, then of the test's friction and of drifts
+  std::vector<Eigen::MatrixXd>
+      A;  // columns of replays, then of what lies between readings, of the test's friction and of drifts
   std::vector<Eigen::Index> replays;  // how many of them are of replays
   std::vector<Inner> inner;
   std::vector<Eigen::MatrixXd> root;            // C^-1/2 = 1 + A root A^T
@@ -95,27 +96,33 @@ Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, co
   const auto columns = jobs("replays", tests_.size(), [&](std::size_t i) {
     const Test& test = bench.test(tests_[i]);
     const Prediction nominal = predict(reference, test, x);
-    Values all;
-    predict(bench.replays_asked(reference, tests_[i], x), [&](std::size_t, const Prediction& replay) {
-      if (replay.failed() != nominal.failed()) return;
-      const Eigen::VectorXd column = stacked(
-          bench, test, replay, [&](Channel c) -> const auto& { return nominal.channel(c); });
+    Values all{0, 0};
+    const auto add = [&](const Prediction& other, double times, double& count) {
+      if (other.failed() != nominal.failed()) return;
+      const Eigen::VectorXd column =
+          times * stacked(
+                      bench, test, other, [&](Channel c) -> const auto& { return nominal.channel(c); });
+      if (column.size() > 0) ++count;
       all.insert(all.end(), column.begin(), column.end());
-    });
+    };
+    predict(bench.replays_asked(reference, tests_[i], x),
+            [&](std::size_t, const Prediction& replay) { add(replay, 1, all[0]); });
+    const BetweenReadings& between = bench.between_readings(tests_[i]);
+    for (const FloorMotion& motion : between.thinned) add(predict(reference, test, x, &motion), between.share, all[1]);
     if (friction_scatter > 0) {
       const Eigen::VectorXd column = change_with_friction(bench, reference, x, test, friction_scatter);
       all.insert(all.end(), column.begin(), column.end());
     }
     return all;
   });
-  take(columns, limit, friction_scatter > 0);
+  take(columns, limit);
 }
 
 Judge::Judge(const Bench& bench) : bench_(bench), tests_(tests_of(bench.data(), Role::calibration)) {
-  take(std::vector<Values>(tests_.size()), 1);
+  take(std::vector<Values>(tests_.size(), Values{0, 0}), 1);
 }
 
-void Judge::take(const std::vector<Values>& columns, double limit, bool own_friction) {
+void Judge::take(const std::vector<Values>& columns, double limit) {
   auto parts = std::make_shared<Parts>();
   for (std::size_t i = 0; i < tests_.size(); ++i) {
     const Test& test = bench_.test(tests_[i]);
@@ -123,12 +130,14 @@ void Judge::take(const std::vector<Values>& columns, double limit, bool own_fric
     for (int c = 0; c < channel_count; ++c)
       if (bench_.noise(static_cast<Channel>(c)) > 0)
         rows += static_cast<Eigen::Index>(history(test, static_cast<Channel>(c)).size());
-    const Eigen::Index all = rows > 0 ? static_cast<Eigen::Index>(columns[i].size()) / rows : 0;
-    const Eigen::Index count = all - (own_friction && rows > 0);
-    const Eigen::Map<const Eigen::MatrixXd> changes(columns[i].data(), rows, all);
+    const Eigen::Index all = rows > 0 ? static_cast<Eigen::Index>(columns[i].size() - 2) / rows : 0;
+    const auto count = static_cast<Eigen::Index>(columns[i][0]), between = static_cast<Eigen::Index>(columns[i][1]);
+    const Eigen::Map<const Eigen::MatrixXd> changes(columns[i].data() + 2, rows, all);
     Eigen::MatrixXd A = changes.leftCols(count);
     A /= std::sqrt(std::max<double>(static_cast<double>(count), 1));
-    expected_.push_back(rows > 0 ? std::sqrt(1 + A.squaredNorm() / static_cast<double>(rows)) : 1);
+    const auto n = static_cast<double>(std::max<Eigen::Index>(rows, 1));
+    unread_.push_back(changes.middleCols(count, between).norm() / std::sqrt(n * std::max<double>(columns[i][1], 1)));
+    expected_.push_back(std::sqrt(1 + A.squaredNorm() / n + std::pow(unread_.back(), 2)));
     std::vector<Eigen::Index> kept;
     for (Eigen::Index k = 0; k < rows; ++k)
       if (A.row(k).squaredNorm() <= limit * limit) kept.push_back(k);
@@ -137,7 +146,7 @@ void Judge::take(const std::vector<Values>& columns, double limit, bool own_fric
     const Eigen::MatrixXd drift = drifts(test);
     A.conservativeResize(rows, all + drift.cols());
     if (drift.cols() > 0) A.rightCols(drift.cols()) = drift;
-    if (all > count) A.col(count) = changes.col(count);
+    A.middleCols(count, all - count) = changes.rightCols(all - count);
     A = Eigen::MatrixXd(A(kept, Eigen::all));
     const Eigen::MatrixXd gram = A.transpose() * A;
     parts->replays.push_back(count);
@@ -204,7 +213,7 @@ Judge::Products Judge::products(std::size_t i, const Eigen::MatrixXd& M) const {
   if (A.cols() == 0) return {square, square, Eigen::MatrixXd(M.cols(), 0), slow(i, M)};
   const Eigen::MatrixXd N = A.transpose() * M, gram = A.transpose() * A, solved = parts_->inner[i].solve(N);
   Products p{square - N.transpose() * solved, {}, {}, slow(i, M - A * solved)};
-  // With V = C^-1 M: of white noise V^T V, of friction and drifts V^T B B^T V.
+  // With V = C^-1 M: of white noise V^T V, of all but replays V^T B B^T V.
   const Eigen::Index replays = parts_->replays[i], drifts = A.cols() - replays;
   const Eigen::MatrixXd cross = N - gram * solved;  // A^T V
   p.covariance = square - N.transpose() * solved - solved.transpose() * N + solved.transpose() * gram * solved;

@@ -1,6 +1,7 @@
 // How far a model is from the measured histories when the noise of the measured floor motion is allowed for, in full:
 // the residual r (as independent numbers of the sensors' noise, sensor.hpp) is judged by the covariance C = 1 + A A^T,
-// where the columns of A are the changes that replays of the floor's noise make, over sqrt(their count), a drift of
+// where the columns of A are the changes that replays of the floor's noise make, over sqrt(their count), those that what the floor does between
+// its readings may make (between_readings.hpp), a drift of
 // each sensor that drifts, and what one standard deviation of the test's own friction changes, where friction differs from
 // test to test. Directions in which that noise fans the motion out say nothing; all others count. r^T C^-1 r by Woodbury's identity; its expectation is the number of samples.
 //
@@ -68,19 +69,22 @@ class Judge {
   // miss the measured history by the largest of them.
   const std::vector<std::vector<double>>& replay_misfits() const { return replay_misfits_; }
   std::vector<double> strays() const;  // the largest, of each test
+  // Of each test: root mean square of what its floor may do to the history between its readings [noise units].
+  const std::vector<double>& unread() const { return unread_; }
   // Of each test: how much of the sensors' misfit, one a sample, goes into directions that C allows for.
   const std::vector<double>& allowed() const { return allowed_; }
 
  private:
   struct Parts;
-  // columns: those of replays, then one of the test's own friction, if any.
-  void take(const std::vector<Values>& columns, double limit, bool own_friction = false);
+  // columns: of each test how many are of replays and how many of what lies between readings, then those, and what is left is of the test's own
+  // friction.
+  void take(const std::vector<Values>& columns, double limit);
   Eigen::MatrixXd drifts(const Test&) const;
   Eigen::MatrixXd slow(std::size_t i, const Eigen::MatrixXd& weights) const;
   std::vector<double> misfit(const ModelSpec&, const std::function<Values(std::size_t i)>& x) const;
   const Bench& bench_;
   std::vector<std::size_t> tests_;
-  std::vector<double> samples_, expected_, allowed_;
+  std::vector<double> samples_, expected_, allowed_, unread_;
   std::vector<std::vector<double>> replay_misfits_;
   std::shared_ptr<const Parts> parts_;
 };

@@ -171,6 +171,8 @@ Bench::Bench(const Dataset& data, int replays) : data_(data), replays_(data.test
     const double horizontal = measurement::floor_noise_mps2(data, test);
     const double vertical = recorded ? sensor_noise(motion_samples(test.motion, test.motion.vertical_mps2)) : 0;
     floor_noise_mps2_.push_back(horizontal);
+    between_readings_.push_back(recorded && replays > 0 ? measurement::between_readings(test.motion, horizontal)
+                                                        : BetweenReadings{});
     const std::uint64_t stream = random::stable_hash(test.id);
     for (int k = 0; recorded && k < replays; ++k)
       replays_[i].push_back(with_noise(test.motion, horizontal, vertical, static_cast<std::uint64_t>(k), stream));

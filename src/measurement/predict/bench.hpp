@@ -7,6 +7,7 @@
 
 #include "measurement/data/channel.hpp"
 #include "measurement/data/dataset.hpp"
+#include "measurement/noise/between_readings.hpp"
 #include "measurement/noise/sensor.hpp"
 #include "measurement/predict/model.hpp"
 
@@ -59,6 +60,7 @@ class Bench {
   void estimate_sensors();
   double floor_noise_mps2(std::size_t test) const { return floor_noise_mps2_[test]; }
   const std::vector<FloorMotion>& replays(std::size_t test) const { return replays_[test]; }
+  const BetweenReadings& between_readings(std::size_t test) const { return between_readings_[test]; }
   // Of the measured slips: of the calibration tests, or of these. Tests held out or left out reach nothing of a fit.
   Reach reach() const;
   Reach reach(const std::vector<std::size_t>& tests) const;
@@ -73,6 +75,7 @@ class Bench {
   const Dataset& data_;
   std::vector<double> floor_noise_mps2_;
   std::vector<std::vector<FloorMotion>> replays_;
+  std::vector<BetweenReadings> between_readings_;  // of measured floors
   std::vector<Reach> reach_;  // of each test
   Sensor sensors_[channel_count];
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <freestand/error.hpp>
 #include <map>
+#include <utility>
 
 #include "measurement/fit/outcome_fit.hpp"
 #include "measurement/fit/starts.hpp"
@@ -186,6 +187,7 @@ class Diagnoser : PairSearch {
       const Judge judge = judge_of(out_.base.fit);
       out_.chances.clear();
       out_.strays = judge.strays();
+      tell_unread_floors(judge);
       if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
       if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance()) {
         out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
@@ -196,6 +198,25 @@ class Diagnoser : PairSearch {
     if (!clocks_at_fault_.empty() || only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
     judge();
     ask();
+  }
+
+  // Said where a floor was read so seldom that this tells more of a history's error than sensors and the floor's noise together.
+  void tell_unread_floors(const Judge& judge) {
+    if (std::exchange(unread_told_, true)) return;
+    double most = 0;
+    std::string where;
+    for (std::size_t i = 0; i < tests_; ++i) {
+      const double unread = judge.unread()[i], noise = std::sqrt(std::pow(judge.expected()[i], 2) - unread * unread);
+      if (unread < noise || unread < most) continue;
+      const FloorMotion& floor = judge.test(i).motion;
+      most = unread;
+      where = fmt::format(
+          "the floor of test {} was read every {:.3g} s: what it did between its readings may change the history by "
+          "{:.2g} times the noise, "
+          "which is allowed for; read it more often",
+          judge.test(i).id, floor.knot_s[1] - floor.knot_s[0], unread);
+    }
+    if (!where.empty()) out_.quality.findings.push_back(where);
   }
 
   // Does a clock of its own in each test take a model to the noise, where all else leaves at least so much?
@@ -234,6 +255,7 @@ class Diagnoser : PairSearch {
   }
 
   std::string clocks_at_fault_;  // a sentence; empty: none is
+  bool unread_told_ = false;
 };
 
 }  // namespace

@@ -1,0 +1,49 @@
+// What a floor does between its readings, by how well those that are left out are known from the others.
+#include "measurement/noise/between_readings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/units.hpp"
+#include "measurement/data/ground.hpp"
+#include "support/keyed_random.hpp"
+
+namespace freestand::measurement {
+namespace {
+
+FloorMotion sine(double readings_a_cycle, double noise = 0) {
+  test::KeyedRandom random(7, 7);
+  std::vector<double> a;
+  for (int i = 0; i < 1000; ++i) a.push_back(std::sin(2 * pi * i / readings_a_cycle) + noise * random.normal());
+  return piecewise_linear("sine", 0.01, a);
+}
+
+// Lines over h miss the middle of a sine by 1 - cos(w h) of it, over 2 h by 1 - cos(2 w h).
+TEST(BetweenReadings, AThirdOfASmoothFloorAndAllOfARoughOne) {
+  for (const double readings : {40.0, 12.0, 8.0, 5.0}) {
+    const double turn = 2 * pi / readings, ratio = (1 - std::cos(2 * turn)) / (1 - std::cos(turn));
+    EXPECT_NEAR(between_readings(sine(readings), 0).share, 1 / (std::max(ratio, 2.0) - 1), 5e-3) << readings;
+  }
+  EXPECT_EQ(between_readings(sine(2.5), 0).share, 1);
+  // What noise adds is not what the floor does.
+  EXPECT_NEAR(between_readings(sine(20, 0.005), 0.005).share, between_readings(sine(20), 0).share, 0.03);
+}
+
+TEST(BetweenReadings, EverySecondReadingIsLeftOut) {
+  const FloorMotion floor = sine(9);
+  const auto read = motion_samples(floor, floor.horizontal_mps2);
+  const auto thinned = between_readings(floor, 0).thinned;
+  ASSERT_EQ(thinned.size(), 2U);
+  for (const std::size_t first : {1U, 2U}) {
+    const auto left = motion_samples(thinned[first - 1], thinned[first - 1].horizontal_mps2);
+    ASSERT_EQ(left.size(), read.size());
+    for (std::size_t i = 1; i + 1 < read.size(); ++i)
+      EXPECT_NEAR(left[i], i % 2 == first % 2 ? (read[i - 1] + read[i + 1]) / 2 : read[i], 1e-12) << i;
+  }
+  EXPECT_TRUE(between_readings({}, 0).thinned.empty());
+}
+
+}  // namespace
+}  // namespace freestand::measurement
