@@ -62,7 +62,7 @@ class Validation(InFolder):
         out = self.folder / "after"
         self.succeed(["compare", second, "-o", out, "--quiet"])
         comparison = numbers(out / "comparison.json")
-        self.assertLess(comparison["holdout"]["error_noise_units"], 1.2)
+        self.assertLess(comparison["holdout"]["error_floor_noise_allowed"], 1.2)
         self.assertLess(comparison["holdout"]["error_of_mean"], 1.2)
         base, added = comparison["ladder"]
         self.succeed(["compare", self.study, "-o", self.folder / "before", "--quiet"])
@@ -96,7 +96,7 @@ class Validation(InFolder):
         self.succeed(["add", self.study, law, "-o", second, "--quiet"])
         self.succeed(["compare", second, "-o", self.folder / "formula", "--quiet"])
         comparison = numbers(self.folder / "formula" / "comparison.json")
-        self.assertLess(comparison["holdout"]["error_noise_units"], 1.2)
+        self.assertLess(comparison["holdout"]["error_floor_noise_allowed"], 1.2)
 
     def change(self, name, change):
         study = self.copy(name, None)
