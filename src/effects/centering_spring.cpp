@@ -5,7 +5,7 @@ namespace freestand::effects {
 const Register centering_spring{{
     .name = "centering_spring",
     .summary = "A spring that pulls the block back to where it stood",
-    .law = "force -m (2 pi f)^2 u",
+    .law = "force -m (2 pi f)^2 u through the centre of mass, u = slip of the base",
     .source = "linear spring of cables, hoses or a dished floor",
     .suspect =
         "residual slips are smaller than they should be and later slips start more easily back towards the middle",

@@ -5,7 +5,9 @@ namespace freestand::effects {
 const Register slack_tether{{
     .name = "slack_tether",
     .summary = "A tether that holds the block back beyond a slack",
-    .law = "beyond slack_m: spring m W^2 stretch and dashpot m c, pulling only; W = 2 pi f",
+    .law =
+        "beyond slack_m of slip: spring m W^2 stretch and dashpot m c, pulling only, through the centre of mass; W = "
+        "2 pi f",
     .source = "one-sided spring of a restraint with slack: [KM05 ch. 9]",
     .suspect = "slips to one side stop short of a certain displacement and come back",
     .parameters =
