@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "measurement/fit/model_fit.hpp"
+#include "measurement/laboratory/plausible.hpp"
 #include "measurement/made_tests.hpp"
 
 namespace freestand::measurement {
@@ -37,6 +38,19 @@ TestError error_at(const Bench& bench, std::size_t i, double friction) {
   ModelSpec model = test::free_friction();
   model.model = Model::slide;
   return test_error(bench, i, model, Values{friction});
+}
+
+// A test that stands twice under two names is told of; tests that stood still are alike and are not.
+TEST(Peaks, ACopyOfATestIsTold) {
+  Dataset data = made_peaks();
+  data.tests.push_back(data.tests[4]);
+  data.tests.back().id = "still again";
+  EXPECT_TRUE(doubts(Bench(data, 0)).sentences.empty());
+  data.tests.push_back(data.tests[1]);
+  data.tests.back().id = "copy";
+  const auto told = doubts(Bench(data, 0)).sentences;
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_NE(told[0].find("the peaks of copy are those of an earlier test"), std::string::npos) << told[0];
 }
 
 TEST(Peaks, StandingStillIsAHitAndSlidingAMiss) {

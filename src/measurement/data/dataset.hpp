@@ -38,6 +38,8 @@ struct Tolerance {
 struct Peaks {
   std::optional<double> peak_slip_m, residual_slip_m, peak_rotation_rad, peak_acceleration_g;
   std::optional<bool> overturned;
+
+  bool operator==(const Peaks&) const = default;
 };
 
 struct Test {

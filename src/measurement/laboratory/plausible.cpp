@@ -146,6 +146,11 @@ class Doubter {
         same_floors_.add(test, 0);
         break;
       }
+    for (std::size_t other = 0; other < i; ++other)
+      if (same_peaks(bench_, i, other)) {
+        same_peaks_.add(test, 0);
+        break;
+      }
     if (test.start.upright_at_rest() && turns_against_floor(bench_, i)) turned_.add(test, 0);
     const double share = share_of_floor(bench_, {i}, without_slip_).value;
     if (share != 0 && !is_nearest_to_one(share)) shares_.add(test, share);
@@ -185,6 +190,8 @@ class Doubter {
       about(copied_[c], (channel + " of {} is one and the same, sample by sample").c_str(),
             ": one file was taken for another");
     }
+    about(same_peaks_, "the peaks of {} are those of an earlier test under the same floor, digit by digit",
+          ": a copy would count twice", false);
     about(same_floors_,
           "the floor of {} is one and the same, sample by sample, which no sensor's noise lets come twice",
           ": one file was taken for another, or the noise stated for floor_acceleration_mps2 is not that of a motion "
@@ -249,8 +256,8 @@ class Doubter {
   const Bench& bench_;
   const double without_slip_;
   Doubts out_;
-  Seen steps_, slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, same_floors_, turned_,
-      shares_;
+  Seen steps_, slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, same_floors_,
+      same_peaks_, turned_, shares_;
   Seen frozen_[channel_count], copied_[channel_count];
   std::vector<std::string> fast_;
 };

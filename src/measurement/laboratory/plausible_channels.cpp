@@ -77,6 +77,13 @@ bool same_floor(const Bench& bench, std::size_t i, std::size_t other) {
   return n > 1 && a.scale == b.scale && std::equal(one.begin(), one.begin() + static_cast<long>(n), two.begin());
 }
 
+bool same_peaks(const Bench& bench, std::size_t i, std::size_t other) {
+  const Test &a = bench.test(i), &b = bench.test(other);
+  const bool moved = a.peaks.peak_slip_m.value_or(0) != 0 || a.peaks.peak_rotation_rad.value_or(0) != 0;
+  return moved && !a.has_history() && !b.has_history() && a.peaks == b.peaks && a.specimen == b.specimen &&
+         a.scale == b.scale && a.stretch == b.stretch && a.motion.horizontal_mps2 == b.motion.horizontal_mps2;
+}
+
 bool turns_against_floor(const Bench& bench, std::size_t i) {
   const Test& test = bench.test(i);
   const Dimensions& body = test.specimen;

@@ -18,6 +18,9 @@ bool same_history(const Bench&, std::size_t test, std::size_t other, Channel);
 // measured never comes twice. (Without such noise it may be the motion that was commanded.)
 bool same_floor(const Bench&, std::size_t test, std::size_t other);
 
+// Do two tests say the same peak slip or rotation, and all else alike, under one floor? A repeated test seldom gives it again.
+bool same_peaks(const Bench&, std::size_t test, std::size_t other);
+
 // Does the floor turn the block the wrong way? A rectangle that rocks about a corner obeys
 //   theta'' + p^2 sgn(theta) sin(alpha - |theta|) = b p^2 (-a/g) cos(alpha - |theta|),   p^2 = 3 g/(4 R),
 // with b = 1, and b = -1 if theta is mirrored. Slips of the corner, and loads beside the floor, bring b nearer to 0. True:
