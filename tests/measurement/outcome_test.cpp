@@ -70,6 +70,27 @@ TEST(OutcomeFit, IntervalsOfTheNumberOfAnEffectHoldTheTruth) {
   EXPECT_GE(held, 0.8 * sets);
 }
 
+// The draws that sweeps and predictions go by: 90 % of them hold the scatter of the placements. (Of fits to resampled tests they held it in 21
+// of 30 sets, and all others lay below.)
+TEST(OutcomeFit, DrawsOfTheScatterHoldTheTruth) {
+  const int sets = test::repeats_asked(test::long_tests() ? 60 : 10);
+  int held = 0, below = 0;
+  for (std::uint64_t seed = 300; seed < 300 + static_cast<std::uint64_t>(sets); ++seed) {
+    const Dataset data = made_outcomes(40, {}, seed);
+    const ModelFit fit = fit_outcomes(Bench(data, 0), rocking_model(true_size_m), {}, {}, run_here);
+    std::vector<double> scatters;
+    for (const Values& x : fit.resampled) scatters.push_back(x[1]);
+    std::ranges::sort(scatters);
+    const auto at = [&](double share) {
+      return scatters[static_cast<std::size_t>(share * static_cast<double>(scatters.size()))];
+    };
+    held += at(0.05) <= true_scatter && true_scatter <= at(0.95);
+    below += at(0.95) < true_scatter;
+  }
+  EXPECT_GE(held, test::likely_counts(sets, 0.9).least);
+  EXPECT_LE(below, test::likely_counts(sets, 0.05).most);
+}
+
 // All fell: however slender the block is, beyond some slenderness the tests say the same.
 TEST(OutcomeFit, TestsThatAllFellBoundASlendernessFromOneSide) {
   Dataset data = made_outcomes(6, {});
