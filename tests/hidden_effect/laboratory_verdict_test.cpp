@@ -35,8 +35,9 @@ Diagnosis diagnosed(const SetRequest& request, const std::vector<const char*>& n
   return measurement::diagnose(bench, free_friction(), catalogue, {}, run_here);
 }
 
-SetRequest request(std::vector<std::string> effects, const char* fault, int tests = 5) {
-  SetRequest r{std::move(effects), 3, tests, 5};
+SetRequest request(std::vector<std::string> effects, const char* fault, int tests = 5, std::uint64_t seed = 3,
+                   double duration_s = 5) {
+  SetRequest r{std::move(effects), seed, tests, duration_s};
   r.fault = fault;
   return r;
 }
@@ -56,10 +57,8 @@ INSTANTIATE_TEST_SUITE_P(Faults, LaboratoryVerdict,
 // Under friction that differs from test to test an effect is found where the scatter is of first order: it is allowed for. (Larger
 // scatter leaves the answer `unknown`, as with seed 3, and names nothing.)
 TEST(LaboratoryVerdict, AnEffectIsFoundThoughFrictionScatters) {
-  SetRequest scattering = request({"static_friction"}, "friction_scatter", 7);
-  scattering.seed = 901;
-  scattering.duration_s = 8;
-  const Diagnosis d = diagnosed(scattering, {"static_friction", "viscous_drag"});
+  const Diagnosis d =
+      diagnosed(request({"static_friction"}, "friction_scatter", 7, 901, 8), {"static_friction", "viscous_drag"});
   EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
   EXPECT_EQ(d.effects, std::vector<std::string>{"static_friction"});
   EXPECT_GT(d.friction_scatter, 0.01);
@@ -67,10 +66,8 @@ TEST(LaboratoryVerdict, AnEffectIsFoundThoughFrictionScatters) {
 
 // One clock that is off beside a law: the law alone misses that test, and is named with the clock.
 TEST(LaboratoryVerdict, AClockIsToldThoughAnEffectIsHidden) {
-  SetRequest late = request({"viscous_drag"}, "one_late_clock", 6);
-  late.seed = 2704;
-  late.duration_s = 8;
-  const Diagnosis d = diagnosed(late, {"static_friction", "viscous_drag"});
+  const Diagnosis d =
+      diagnosed(request({"viscous_drag"}, "one_late_clock", 6, 2704, 8), {"static_friction", "viscous_drag"});
   EXPECT_EQ(d.verdict, Verdict::bad_data) << testing::PrintToString(d.sentences);
   EXPECT_TRUE(std::ranges::any_of(d.quality.findings, [](const std::string& s) {
     return s.find(
@@ -81,9 +78,7 @@ TEST(LaboratoryVerdict, AClockIsToldThoughAnEffectIsHidden) {
 
 // A floor that was read at 50 Hz: what it did between its readings changes a history by ten times the noise, and is no law.
 TEST(LaboratoryVerdict, AFloorThatIsReadSeldomIsNoEffect) {
-  SetRequest seldom = request({}, "", 6);
-  seldom.seed = 2904;
-  seldom.duration_s = 8;
+  SetRequest seldom = request({}, "", 6, 2904, 8);
   seldom.rate_hz = 50;
   const Diagnosis d = diagnosed(seldom, {"static_friction", "directional_friction"});
   EXPECT_EQ(d.verdict, Verdict::none) << testing::PrintToString(d.sentences);
@@ -94,10 +89,7 @@ TEST(LaboratoryVerdict, AFloorThatIsReadSeldomIsNoEffect) {
 
 // Contents that swing make friction steadiest at a lag of 0.095 s in one test, and nearly as steady at others.
 TEST(LaboratoryVerdict, ContentsThatSwingAreNoClock) {
-  SetRequest swinging = request({"moving_contents"}, "coloured_noise", 6);
-  swinging.seed = 2701;
-  swinging.duration_s = 8;
-  const Diagnosis d = diagnosed(swinging, {"static_friction"});
+  const Diagnosis d = diagnosed(request({"moving_contents"}, "coloured_noise", 6, 2701, 8), {"static_friction"});
   EXPECT_EQ(d.verdict, Verdict::unknown) << testing::PrintToString(d.quality.findings);
 }
 
