@@ -184,7 +184,8 @@ SlipsSeen look_at_slips(const Bench& bench, Quality& quality) {
     timings.push_back(dt > 0 ? slip_timing(bench, i, static_cast<int>(longest_lag_s / dt)) : Timing{});
     if (dt <= 0) continue;
     const Timing far = slip_timing(bench, i, static_cast<int>(longest_lag_of_known_sign_s / dt), true);
-    if (at_fault(far) && far.gain > timings.back().gain) timings.back() = far;
+    // Of the many lags beyond a swing one fits short slips by chance.
+    if (at_fault(far) && far.p < chance_level && far.gain > timings.back().gain) timings.back() = far;
   }
   std::vector<std::string> in_units;
   SlipsSeen seen{false, std::vector<bool>(bench.size(), false)};

@@ -1,5 +1,7 @@
 #include "measurement/laboratory/timing.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,9 +41,8 @@ class Slipping {
           (slip.sigma > 0 ? there_ : back_).push_back(k);
   }
 
-  double samples() const {
-    return static_cast<double>(there_.size() + back_.size()) / static_cast<double>(2 * half_ + 1);
-  }
+  double window() const { return static_cast<double>(2 * half_ + 1); }
+  double samples() const { return static_cast<double>(there_.size() + back_.size()) / window(); }
   std::size_t last() const { return std::max(there_.empty() ? 0 : there_.back(), back_.empty() ? 0 : back_.back()); }
 
   // Of sign u'' + a about its mean of each direction, a read `late` steps before.
@@ -131,6 +132,8 @@ Timing slip_timing(const Bench& bench, std::size_t i, int most_steps, bool sign_
     if (std::max(k, place) - std::min(k, place) > apart) next = std::min(next, curve[k]);
   best.next = least_variance > 0 ? next / least_variance : 1;
   best.gain = least_variance > 0 ? variances[0][static_cast<std::size_t>(most_steps)] / least_variance : 1;
+  const double tries = static_cast<double>(variances[0].size() + variances[1].size()) / slipping.window();
+  if (best.samples > 0) best.p = std::min(1.0, tries * gsl_cdf_fdist_Q(best.gain, best.samples, best.samples));
   return best;
 }
 

@@ -14,7 +14,10 @@ struct Timing {
   double gain = 1;     // variance of u'' + a as measured, over that with the slip turned round and shifted by these
   double next =
       1;  // least variance at a lag, as mirrored, beyond two windows of smoothing from this one, over that here
-  double samples = 0;   // independent ones
+  double samples = 0;  // independent ones
+  // Chance that the least variance at one of so many lags and signs is so far below that as measured, were it the same at all but for chance: a
+  // ratio of variances of so many samples each is Fisher's F.
+  double p = 1;
   bool judged() const;  // there was slip enough
   bool wrong() const;   // more than chance
   bool known()
