@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <freestand/simulate.hpp>
 #include <numeric>
@@ -20,6 +19,7 @@
 #include "support/isa.hpp"
 #include "support/keyed_random.hpp"
 #include "support/random_cases.hpp"
+#include "support/repeats.hpp"
 #include "support/speed_laws.hpp"
 
 namespace freestand::test {
@@ -164,7 +164,7 @@ class Batch : public testing::TestWithParam<Kind> {
 };
 
 TEST_P(Batch, AgreesWithSingleSamples) {
-  const int samples = std::getenv("FREESTAND_LONG_TESTS") ? 10000 : 1000;
+  const int samples = long_tests() ? 10000 : 1000;
   const Count count = compare("packs", block(static_cast<std::size_t>(samples)));
   EXPECT_LE(count.differ, samples / 500);  // rows of small hops amplify the error of the steps
   EXPECT_LE(count.sensitive, 0.03 * samples);

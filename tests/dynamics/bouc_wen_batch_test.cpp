@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <freestand/simulate.hpp>
 #include <limits>
@@ -13,6 +12,7 @@
 
 #include "support/bouc_wen_cases.hpp"
 #include "support/isa.hpp"
+#include "support/repeats.hpp"
 
 namespace freestand::test::bouc_wen_batch_test {
 namespace {
@@ -56,7 +56,7 @@ double difference(const Response& a, const Response& b, double yield) {
 }
 
 TEST(BoucWenBatch, AgreesWithSingleSamples) {
-  const Samples block = block_of(plain, std::getenv("FREESTAND_LONG_TESTS") ? 3000 : 300);
+  const Samples block = block_of(plain, long_tests() ? 3000 : 300);
   const auto packs = compute(block);
   int moved = 0, differ = 0, sensitive = 0;
   std::vector<double> errors;

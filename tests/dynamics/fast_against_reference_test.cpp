@@ -9,9 +9,9 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 #include "support/random_cases.hpp"
+#include "support/repeats.hpp"
 #include "support/solvers.hpp"
 
 namespace freestand::test::fast_against_reference_test {
@@ -98,7 +98,7 @@ void compare(const CaseFamily& family, std::uint64_t number, Count& count) {
 }
 
 Count compare_family(const char* label, const CaseFamily& family, int samples) {
-  const bool longer = std::getenv("FREESTAND_LONG_TESTS") != nullptr;
+  const bool longer = long_tests();
   Count count;
   for (int i = 0; i < samples * (longer ? 10 : 1); ++i) compare(family, static_cast<std::uint64_t>(i), count);
   std::printf(

@@ -15,6 +15,7 @@
 #include "base/units.hpp"
 #include "support/keyed_random.hpp"
 #include "support/plane_motions.hpp"
+#include "support/repeats.hpp"
 
 namespace freestand::test::plane_stepper_test {
 namespace {
@@ -22,7 +23,7 @@ namespace {
 std::uint64_t case_count() {
   const char* wanted = std::getenv("FREESTAND_PLANE_CASES");
   if (wanted) return std::strtoull(wanted, nullptr, 10);
-  return std::getenv("FREESTAND_LONG_TESTS") ? 300 : 12;
+  return long_tests() ? 300 : 12;
 }
 
 double between(const std::vector<double>& samples, std::size_t i, double part) {

@@ -4,22 +4,22 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstdlib>
 
 #include "judge/known_gaps.hpp"
 #include "judge/tally.hpp"
+#include "support/repeats.hpp"
 
 namespace freestand::test {
 namespace {
 
-// Two cases of every recipe, and those of walls five times.
+// A case of every recipe (FREESTAND_LONG_TESTS: two), and those of walls five times.
 TEST(Judge, AgreesWithTheKernelOnEveryEffectInEveryMode) {
   Tally tally;
   const std::vector<Recipe> all = recipes();
   for (std::uint64_t number = 0; number < 5 * all.size(); ++number) {
     const std::vector<std::string>& about = all[number % all.size()].effects;
     const bool with_wall = std::find(about.begin(), about.end(), "wall_impact") != about.end();
-    if (number >= 2 * all.size() && !with_wall) continue;
+    if (number >= (test::long_tests() ? 2 : 1) * all.size() && !with_wall) continue;
     const JudgedCase c = judged_case(1, number);
     const Judgement judgement = judge(c);
     tally.add(c, judgement);
@@ -73,14 +73,14 @@ TEST(Judge, AgreesOnWallsOnTheLeftAndOnBothSides) {
 // contact, which takes two thirds of the time for its tiny steps, only with FREESTAND_LONG_TESTS; each effect alone meets it, as its number
 // draws it, in any case.
 TEST(Judge, AgreesWithTheKernelOnABoucWenContact) {
-  const bool all = std::getenv("FREESTAND_LONG_TESTS") != nullptr;
+  const bool all = test::long_tests();
   Tally tally;
   int stiffest = 0;
   for (std::uint64_t number = 0; number < recipes(Family::bouc_wen).size(); ++number) {
     const JudgedCase c = judged_case(1, number, Family::bouc_wen);
     const bool stiff = c.truth.contact.yield_m < 1e-6, alone = c.recipe.effects.size() < 2;
     const bool chained = std::ranges::find(c.recipe.effects, "chain") != c.recipe.effects.end();
-    if ((stiff || (number % 2 && !chained)) && !alone && !all) continue;
+    if ((stiff || (number % 3 && !chained)) && !alone && !all) continue;
     stiffest += stiff;
     const Judgement judgement = judge(c);
     tally.add(c, judgement);

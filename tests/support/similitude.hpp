@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <memory>
@@ -21,6 +20,7 @@
 #include "base/units.hpp"
 #include "dynamics/effect.hpp"
 #include "support/random_cases.hpp"
+#include "support/repeats.hpp"
 #include "support/solvers.hpp"
 
 namespace freestand::test {
@@ -151,6 +151,6 @@ inline std::string text_of(const Answers& both) {
 }
 
 // How many cases a test looks at.
-inline int cases(int usual) { return std::getenv("FREESTAND_LONG_TESTS") ? 20 * usual : usual; }
+inline int cases(int usual) { return long_tests() ? 20 * usual : usual; }
 
 }  // namespace freestand::test
