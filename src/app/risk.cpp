@@ -54,7 +54,9 @@ void tell(const study::RiskAnswer& answer, const study::RiskOptions& options) {
     fmt::print("  {:<{}}  {:<32}  {}{:<17}  {}\n", title(row), width,
                fmt::format("{:.2g} [{:.2g}, {:.2g}]", rate.value, rate.lower, rate.upper), chances,
                std::isnan(row.median_im) ? "-" : fmt::format("{:.2g} {}", row.median_im, risk.im_unit),
-               row.recommended == decision::By::function ? "fitted curve" : "counts");
+               row.recommended != decision::By::function ? "counts"
+               : std::isfinite(row.by_counts.value)      ? "fitted curve"
+                                                         : "fitted curve, with no bin to check it");
   }
   for (const auto& [why, titles] : reasons(risk)) fmt::print("* by counts, {}: {}\n", why, fmt::join(titles, ", "));
   for (const std::string& warning : risk.warnings) fmt::print("warning: {}\n", warning);

@@ -60,6 +60,12 @@ class Risk(InFolder):
         self.fail_with(2, ["risk", self.out, "--hazard", self.hazard, "-o", self.out, "--overwrite"], "is the sweep itself")
         self.assertTrue((self.out / "samples.h5").exists())
 
+    def test_a_curve_that_no_bin_checks_is_marked(self):
+        study = self.write("few.yaml", STUDY.replace("resamples: 50", "resamples: 50, minimum_samples: 2000"))
+        self.succeed(["run", study, "-o", self.folder / "few", "--quiet"])
+        done = self.succeed(["risk", self.folder / "few", "--hazard", self.hazard, "-o", self.folder / "risk"])
+        self.assertRegex(done.stdout, r"(?m)^  delta > 1 .*fitted curve, with no bin to check it$")
+
     def test_mistakes_are_told_with_file_and_line(self):
         def refused(code, text, *words):
             self.fail_with(code, ["risk", self.out, "--hazard", self.write("bad.csv", text), "-o", self.folder / "no"], *words)
