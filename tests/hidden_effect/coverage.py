@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Do the stated intervals hold the truth as often as they say, and do the readings kept back lie in their bands?
 
-    coverage.py -o DIR [--seeds 12] [--first 1] [--effects a,b,c+d] [--tests 7] [--duration 8] [--fault friction_scatter]
+    coverage.py -o DIR [--seeds 12] [--first 1] [--effects a,b,c+d] [--tests 7] [--duration 8] [--rate 200] [--fault friction_scatter]
                 [--build build/release]
 
 Makes each set (make_sets, which shares no code with the program), gives `freestand compare` the model with the hidden effects, all
@@ -26,6 +26,7 @@ def options():
     parser.add_argument("--first", type=int, default=1)
     parser.add_argument("--tests", type=int, default=7)
     parser.add_argument("--duration", type=float, default=8)
+    parser.add_argument("--rate", type=int, default=200, help="readings of the sensors [Hz]")
     parser.add_argument("--fault", help="of the laboratory that measures (make_sets --help)")
     parser.add_argument("--build", type=pathlib.Path, default=pathlib.Path("build/release"))
     return parser.parse_args()
@@ -46,6 +47,10 @@ class Bench:
         listed = subprocess.run([self.make_sets, "--list"], capture_output=True, text=True, check=True).stdout.split()
         return [name for name in listed if name == "none" or set(name.split("+")) <= set(self.known)]
 
+    def name(self, effects, seed):
+        o = self.options
+        return f"{effects}-{seed}" + (f"-{o.rate}hz" if o.rate != 200 else "") + (f"-{o.fault}" if o.fault else "")
+
     def entry(self, effect):
         """The effect with all its numbers to be calibrated, those with a default too."""
         numbers = "".join(f", {p['name']}: {{calibrate: [{p['low']}, {p['high']}]}}" for p in self.known[effect] if p["fitted"])
@@ -54,8 +59,8 @@ class Bench:
     def one(self, effects, seed):
         o = self.options
         subprocess.run([self.make_sets, "-o", self.sets, "--effects", effects, "--first", str(seed), "--seeds", "1", "--tests", str(o.tests),
-                        "--duration", str(o.duration)] + (["--fault", o.fault] if o.fault else []), check=True, capture_output=True)
-        name = f"{effects}-{seed}" + (f"-{o.fault}" if o.fault else "")
+                        "--duration", str(o.duration), "--rate", str(o.rate)] + (["--fault", o.fault] if o.fault else []), check=True, capture_output=True)
+        name = self.name(effects, seed)
         answer = json.loads((self.sets / "answers.json").read_text())[name]
         (self.sets / f"{name}.yaml").write_text(MODEL.format(name, ", ".join(map(self.entry, answer["effects"]))))
         result = {"name": name, "effects": effects, "seed": seed}
@@ -129,7 +134,7 @@ def main():
     bench = Bench(o)
     for seed in range(o.first, o.first + o.seeds):
         for effects in bench.names():
-            name = f"{effects}-{seed}" + (f"-{o.fault}" if o.fault else "")
+            name = bench.name(effects, seed)
             if name in results:
                 continue
             results[name] = bench.one(effects, seed)

@@ -8,6 +8,7 @@
 
 #include "base/units.hpp"
 #include "measurement/data/ground.hpp"
+#include "measurement/made_tests.hpp"
 #include "support/keyed_random.hpp"
 
 namespace freestand::measurement {
@@ -43,6 +44,30 @@ TEST(BetweenReadings, EverySecondReadingIsLeftOut) {
       EXPECT_NEAR(left[i], i % 2 == first % 2 ? (read[i - 1] + read[i + 1]) / 2 : read[i], 1e-12) << i;
   }
   EXPECT_TRUE(between_readings({}, 0).thinned.empty());
+}
+
+// What histories may stray by: the mean square of both thinnings, times the square of the share.
+TEST(BetweenReadings, HistoriesStrayByTheirShareOfTheThinning) {
+  Specimen cabinet;
+  cabinet.block = Block::rectangular(0.8, 0.6, 100);
+  cabinet.friction = {0.2, 0.2};
+  const Dataset data = test::made_dataset(cabinet);
+  const Bench bench(data, 8);
+  const ModelSpec model = test::free_friction();
+  const Values x = {0.2};
+  const Prediction plain = predict(model, data.tests[0], x);
+  const BetweenReadings& between = bench.between_readings(0);
+  const Prediction one = predict(model, data.tests[0], x, &between.thinned[0]),
+                   two = predict(model, data.tests[0], x, &between.thinned[1]);
+  const auto unread = bench.unread_spread(model, 0, x, plain)[0];
+  ASSERT_EQ(unread.size(), plain.slip_m.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < unread.size(); ++k) {
+    const double a = one.slip_m[k] - plain.slip_m[k], b = two.slip_m[k] - plain.slip_m[k];
+    EXPECT_NEAR(unread[k], between.share * between.share * (a * a + b * b) / 2, 1e-15);
+    largest = std::max(largest, unread[k]);
+  }
+  EXPECT_GT(largest, 0);
 }
 
 }  // namespace

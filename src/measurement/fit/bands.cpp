@@ -37,6 +37,8 @@ std::vector<Bands> predicted_bands(const Bench& bench, const ModelSpec& model, c
       const FloorMotion* motion = replays.empty() ? nullptr : &replays[k % replays.size()];
       asked.push_back({model, test, spread_row(posterior.draws, k, predictions), motion});
     }
+    const Values& middle_row = spread_row(posterior.draws, 0, 1);
+    const Spread unread = bench.unread_spread(model, i, middle_row, predict(model, test, middle_row));
     std::vector<Prediction> all_of_them = predict(asked);
     std::erase_if(all_of_them, [](const Prediction& one) { return one.failed(); });
     for (int c = 0; c < channel_count && all_of_them.size() > 1; ++c) {
@@ -48,9 +50,10 @@ std::vector<Bands> predicted_bands(const Bench& bench, const ModelSpec& model, c
         double sum = 0;
         for (const double value : here) sum += value;
         const double middle = at_share(here, 0.5), lower = at_share(here, 0.05), upper = at_share(here, 0.95);
-        ends.push_back(middle - std::hypot(middle - lower, sensor));
+        const double beside = std::hypot(sensor, reach * std::sqrt(unread[static_cast<std::size_t>(c)][t]));
+        ends.push_back(middle - std::hypot(middle - lower, beside));
         ends.push_back(sum / static_cast<double>(here.size()));
-        ends.push_back(middle + std::hypot(upper - middle, sensor));
+        ends.push_back(middle + std::hypot(upper - middle, beside));
       }
     }
     return ends;

@@ -131,6 +131,13 @@ void predict_some(std::span<const Asked> asked, std::size_t first,
   for (std::size_t i = 0; i < asked.size(); ++i) use(first + i, std::move(all[i]));
 }
 
+std::vector<Asked> asked_under(const std::vector<FloorMotion>& motions, const ModelSpec& model, const Test& test,
+                               std::span<const double> x) {
+  std::vector<Asked> asked;
+  for (const FloorMotion& motion : motions) asked.push_back({model, test, Values(x.begin(), x.end()), &motion});
+  return asked;
+}
+
 }  // namespace
 
 void predict(const std::vector<Asked>& asked, const std::function<void(std::size_t i, Prediction)>& use) {
@@ -222,21 +229,30 @@ void Bench::leave_out_floor(Sensor& both) const {
 }
 
 std::vector<Asked> Bench::replays_asked(const ModelSpec& model, std::size_t i, std::span<const double> x) const {
-  std::vector<Asked> asked;
-  for (const FloorMotion& motion : replays_[i]) asked.push_back({model, test(i), Values(x.begin(), x.end()), &motion});
-  return asked;
+  return asked_under(replays_[i], model, test(i), x);
 }
 
 Spread Bench::spread(const ModelSpec& model, std::size_t i, std::span<const double> x,
                      const Prediction& nominal) const {
+  return changes(model, i, x, nominal, replays_[i], 1);
+}
+
+Spread Bench::unread_spread(const ModelSpec& model, std::size_t i, std::span<const double> x,
+                            const Prediction& nominal) const {
+  const auto& [thinned, share] = between_readings_[i];
+  return changes(model, i, x, nominal, thinned, share * share);
+}
+
+Spread Bench::changes(const ModelSpec& model, std::size_t i, std::span<const double> x, const Prediction& nominal,
+                      const std::vector<FloorMotion>& motions, double weight) const {
   Spread spread(channel_count);
-  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(replays_[i].size(), 1));
+  const double share = weight / static_cast<double>(std::max<std::size_t>(motions.size(), 1));
   for (int c = 0; c < channel_count; ++c)
     spread[static_cast<std::size_t>(c)].assign(history(test(i), static_cast<Channel>(c)).size(), 0.0);
-  predict(replays_asked(model, i, x), [&](std::size_t, const Prediction& replay) {
+  predict(asked_under(motions, model, test(i), x), [&](std::size_t, const Prediction& other) {
     for (int c = 0; c < channel_count; ++c) {
       auto& variance = spread[static_cast<std::size_t>(c)];
-      const auto& a = replay.channel(static_cast<Channel>(c));
+      const auto& a = other.channel(static_cast<Channel>(c));
       const auto& b = nominal.channel(static_cast<Channel>(c));
       for (std::size_t k = 0; k < variance.size(); ++k) variance[k] += share * (a[k] - b[k]) * (a[k] - b[k]);
     }

@@ -68,15 +68,20 @@ class Bench {
   // The test under its motion with each replay of its noise.
   std::vector<Asked> replays_asked(const ModelSpec&, std::size_t test, std::span<const double> x) const;
   Spread spread(const ModelSpec&, std::size_t test, std::span<const double> x, const Prediction& nominal) const;
+  // The same of what the floor may do between its readings.
+  Spread unread_spread(const ModelSpec&, std::size_t test, std::span<const double> x, const Prediction& nominal) const;
 
  private:
   void leave_out_floor(Sensor& both) const;
+  // Mean square of what these motions in place of the test's change, times a weight.
+  Spread changes(const ModelSpec&, std::size_t test, std::span<const double> x, const Prediction& nominal,
+                 const std::vector<FloorMotion>&, double weight) const;
 
   const Dataset& data_;
   std::vector<double> floor_noise_mps2_;
   std::vector<std::vector<FloorMotion>> replays_;
   std::vector<BetweenReadings> between_readings_;  // of measured floors
-  std::vector<Reach> reach_;  // of each test
+  std::vector<Reach> reach_;                       // of each test
   Sensor sensors_[channel_count];
 };
 
