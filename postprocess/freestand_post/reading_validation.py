@@ -42,6 +42,7 @@ class Table:
     count: np.ndarray
     columns: dict            # name -> values
     share_explained: float = np.nan
+    share_of_force_explained: float = np.nan
     law_effects: list = field(default_factory=list)
     law_follows: bool = False  # the law changes with this variable
 
@@ -175,10 +176,11 @@ def _table(node, columns):
     size = len(label) or len(node.items("centre"))
     table = Table(node.text("variable"), node.text("unit", "1"), label, node.numbers("edge"), node.numbers("centre", size),
                   node.numbers("count", size), {key: node.numbers(key, size) for key in columns.split()},
-                  node.number("share_explained"))
+                  node.number("share_explained"), node.number("share_of_force_explained"))
     law = node.node("law")
     if law:
         table.columns["law"] = law.numbers("mu", size)
+        table.columns["law_force_mps2"] = law.numbers("force_mps2", size)
         table.law_effects = law.texts("effects")
         table.law_follows = law.value.get("follows") is True
     return table
@@ -278,7 +280,7 @@ def read_diagnosis(folder):
     if verdict not in ("none", "missing", "ambiguous", "unknown", "bad_data"):
         root.wrong("verdict", "one of none, missing, ambiguous, unknown, bad_data")
     base, recovered, suggestion = root.node("base"), root.node("recovered_force"), root.node("suggested_motion")
-    columns = "mu mu_deviation mu_lower mu_upper"
+    columns = "mu mu_deviation mu_lower mu_upper force_mps2 force_lower_mps2 force_upper_mps2"
     suggested = {}
     if suggestion:
         motion, specimen = suggestion.node("motion"), suggestion.value.get("specimen")

@@ -72,21 +72,25 @@ Json recovered_json(const Bench& bench, const Diagnosis& d, const Candidate& sho
                {"sample_noise_mu", number_or_null(r.sample_noise_mu)},
                {"tables", Json::array()}};
   for (const RecoveredTable& t : r.tables) {
-    json["tables"].push_back(
-        {{"variable", t.variable},
-         {"unit", t.unit},
-         {"edge", numbers_or_null(t.edge)},
-         {"centre", numbers_or_null(t.centre)},
-         {"count", numbers_or_null(t.count)},
-         {"mu", numbers_or_null(t.mu)},
-         {"mu_deviation", numbers_or_null(t.mu_deviation)},
-         {"mu_lower", numbers_or_null(t.mu_lower)},
-         {"mu_upper", numbers_or_null(t.mu_upper)},
-         {"force_mps2", numbers_or_null(t.force_mps2)},
-         {"force_lower_mps2", numbers_or_null(t.force_lower_mps2)},
-         {"force_upper_mps2", numbers_or_null(t.force_upper_mps2)},
-         {"share_explained", number_or_null(t.share_explained)},
-         {"law", {{"effects", shown.effects}, {"mu", numbers_or_null(t.law)}, {"follows", t.law_follows}}}});
+    json["tables"].push_back({{"variable", t.variable},
+                              {"unit", t.unit},
+                              {"edge", numbers_or_null(t.edge)},
+                              {"centre", numbers_or_null(t.centre)},
+                              {"count", numbers_or_null(t.count)},
+                              {"mu", numbers_or_null(t.mu)},
+                              {"mu_deviation", numbers_or_null(t.mu_deviation)},
+                              {"mu_lower", numbers_or_null(t.mu_lower)},
+                              {"mu_upper", numbers_or_null(t.mu_upper)},
+                              {"force_mps2", numbers_or_null(t.force_mps2)},
+                              {"force_lower_mps2", numbers_or_null(t.force_lower_mps2)},
+                              {"force_upper_mps2", numbers_or_null(t.force_upper_mps2)},
+                              {"share_explained", number_or_null(t.share_explained)},
+                              {"share_of_force_explained", number_or_null(t.share_of_force_explained)},
+                              {"law",
+                               {{"effects", shown.effects},
+                                {"mu", numbers_or_null(t.law)},
+                                {"force_mps2", numbers_or_null(t.law_force_mps2)},
+                                {"follows", t.law_follows}}}});
   }
   return json;
 }

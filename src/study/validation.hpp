@@ -51,9 +51,10 @@
 //   noise_floor: error that sensor and floor noise alone would make; of outcomes the score that chance alone would make,
 //     were the base's probabilities right
 //   recovered_force: {samples, mean_mu, sample_noise_mu, base_mu, tables: [{variable, unit, edge, centre, count, mu, mu_deviation,
-//     mu_lower, mu_upper, force_mps2, force_lower_mps2, force_upper_mps2, share_explained, law: {effects, mu,
-//     follows (whether it changes with this variable alone)}}]}; `law`: the friction of `best` through the same samples
-//     where it has one
+//     mu_lower, mu_upper, force_mps2, force_lower_mps2, force_upper_mps2, share_explained (of the scatter of mu),
+//     share_of_force_explained, law: {effects, mu, force_mps2,
+//     follows (whether it changes with this variable alone)}}]}; `law`: that of `best` through the same samples, as
+//     friction and as the force that the base lacks, where it has one
 //   suggested_motion: where the verdict is ambiguous, else null: {between: [], motion: {pulse, period_s,
 //     peak_acceleration_g}, specimen (a sentence; null: the same), separation_noise_units, sentence}; of outcomes motion:
 //     {test, scale}, and probabilities of overturning with each rival, repeats

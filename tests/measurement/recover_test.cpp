@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "base/units.hpp"
 #include "effects/effects.hpp"
 #include "measurement/made_tests.hpp"
 
@@ -47,6 +48,25 @@ TEST(Recover, DirectionalFrictionShowsOverTheDirection) {
   const RecoveredTable t = over(recovered(data), "direction");
   ASSERT_EQ(t.mu.size(), 2U);
   EXPECT_NEAR(t.mu[1] - t.mu[0], 2 * 0.15 * 0.3, 0.01);
+}
+
+// A spring pulls back, there and on the way: as friction it cancels, as a force it is -(2 pi f)^2 u.
+TEST(Recover, ASpringShowsOverThePositionAsAForce) {
+  const auto* spring = effects::find("centering_spring");
+  const double f = 0.6, stiffness = std::pow(2 * pi * f, 2);
+  const Dataset data = test::made_dataset(cabinet(0.15, {{spring, {f}}}));
+  const Bench bench(data, 0);
+  ModelSpec base;
+  base.mu_k.value = 0.15;
+  const RecoveredTable t =
+      over(recover(bench, 0.15, with_effect(base, *spring, bench.reach()), Values{f}), "position_m");
+  EXPECT_GT(t.share_of_force_explained, 2 * t.share_explained);
+  EXPECT_TRUE(t.law_follows);
+  for (std::size_t b = 0; b < t.centre.size(); ++b) {
+    EXPECT_NEAR(t.law_force_mps2[b], -stiffness * t.centre[b], 0.01 * stiffness * std::abs(t.centre[b]) + 1e-3) << b;
+    EXPECT_GT(t.law_force_mps2[b], t.force_lower_mps2[b]) << b;
+    EXPECT_LT(t.law_force_mps2[b], t.force_upper_mps2[b]) << b;
+  }
 }
 
 // The same slips, sampled at that rate.

@@ -242,6 +242,25 @@ class Drawn(Temporary):
         return [line for axes in drawn["recovered"].figure.axes for line in axes.get_lines()
                 if line.get_color() == style.BLUE and np.isfinite(line.get_ydata()).any()]
 
+    def test_a_force_that_cancels_in_friction_is_drawn_as_a_force(self):
+        """A spring's: friction there and back averages to the same, and a reader would see that nothing depends on the position."""
+        recovered = make.recovered()
+        place = [-0.05, 0.0, 0.05]
+        recovered["tables"].append({"variable": "position_m", "unit": "m", "edge": [], "centre": place, "count": [16.0] * 3, "mu": [0.25, 0.251, 0.25],
+                                    "mu_deviation": [0.01] * 3, "mu_lower": [0.24] * 3, "mu_upper": [0.26] * 3, "force_mps2": [0.3, 0.0, -0.31],
+                                    "force_lower_mps2": [0.2, -0.1, -0.4], "force_upper_mps2": [0.4, 0.1, -0.2], "share_explained": 0.09,
+                                    "share_of_force_explained": 0.7,
+                                    "law": {"effects": ["centering_spring"], "mu": [0.25] * 3, "force_mps2": [0.29, 0.0, -0.29], "follows": True}})
+        found = [make.candidate("centering_spring", 1.2, True)]
+        folder = make.diagnosis(self.folder, candidates=found, best="centering_spring", effects=["centering_spring"], recovered_force=recovered)
+        drawn = self.draw(folder, about="recovered")["recovered"]
+        self.assertEqual(drawn.finding, "Over the position the recovered missing force goes from 0.15 to −0.15 m/s²; the law of centering spring from 0.14 to −0.14 m/s²")
+        force, friction = drawn.figure.axes[:2]
+        self.assertEqual((force.get_ylabel(), friction.get_ylabel()), ("force over mass (m/s²)", "friction coefficient μ"))
+        self.assertEqual([list(line.get_ydata()) for line in force.get_lines() if line.get_color() == style.BLUE], [[0.29, 0.0, -0.29]])
+        self.assertLess(force.get_ylim()[0], -0.31)
+        self.assertGreater(friction.get_ylim()[0], 0)
+
     def test_no_law_is_drawn_where_no_effect_is_named(self):
         for verdict in ("none", "unknown"):
             self.assertFalse(self.blue_lines(self.draw(make.diagnosis(self.folder / verdict, verdict), about="recovered")))

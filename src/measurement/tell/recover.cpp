@@ -103,6 +103,11 @@ struct Mean {
   }
 };
 
+double share_between(double between, const Mean& all) {
+  const double whole = all.square - all.time * all.mean() * all.mean();
+  return whole > 0 ? between / whole : 0;
+}
+
 // Does the shown law change with this variable alone? Tried at some samples with the values of some others.
 bool follows(const std::vector<SlipSample>& samples, const SlipVariable& variable) {
   const std::size_t step = std::max<std::size_t>(1, samples.size() / 16);
@@ -125,11 +130,11 @@ RecoveredTable table(const std::vector<SlipSample>& samples, const SlipVariable&
   t.unit = variable.unit;
   t.edge = edges(samples, variable);
   t.law_follows = follows(samples, variable);
-  Mean all;
-  for (const SlipSample& s : samples) all.add(s.mu, s.step_s);
-  double between = 0;
+  Mean all, all_forces;
+  for (const SlipSample& s : samples) all.add(s.mu, s.step_s), all_forces.add(s.force_mps2, s.step_s);
+  double between = 0, between_forces = 0;
   for (std::size_t b = 0; b + 1 < t.edge.size(); ++b) {
-    Mean mu, force, law, centre;
+    Mean mu, force, law, law_force, centre;
     double n = 0;
     for (const SlipSample& s : samples) {
       const double at = value(s, variable);
@@ -137,6 +142,7 @@ RecoveredTable table(const std::vector<SlipSample>& samples, const SlipVariable&
       ++n;
       mu.add(s.mu, s.step_s), force.add(s.force_mps2, s.step_s);
       law.add(s.law, s.step_s), centre.add(at, s.step_s);
+      law_force.add(s.force_mps2 + s.at.sigma * (s.mu - s.law) * s.gravity_mps2, s.step_s);
     }
     const double sd = mu.deviation(n), sf = force.deviation(n);
     const double band = 1.96 / std::sqrt(std::max(1.0, mu.time / (2 * window_s)));
@@ -150,10 +156,13 @@ RecoveredTable table(const std::vector<SlipSample>& samples, const SlipVariable&
     t.force_lower_mps2.push_back(force.mean() - band * sf);
     t.force_upper_mps2.push_back(force.mean() + band * sf);
     t.law.push_back(law.mean());
-    if (n > 0) between += mu.time * std::pow(mu.mean() - all.mean(), 2);
+    t.law_force_mps2.push_back(law_force.mean());
+    if (n == 0) continue;
+    between += mu.time * std::pow(mu.mean() - all.mean(), 2);
+    between_forces += force.time * std::pow(force.mean() - all_forces.mean(), 2);
   }
-  const double whole = all.square - all.time * all.mean() * all.mean();
-  t.share_explained = whole > 0 ? between / whole : 0;
+  t.share_explained = share_between(between, all);
+  t.share_of_force_explained = share_between(between_forces, all_forces);
   return t;
 }
 

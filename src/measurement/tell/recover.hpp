@@ -20,9 +20,11 @@ struct RecoveredTable {
       force_upper_mps2;
   std::vector<double> count;
   double share_explained = 0;  // of the variance of mu_eff among its samples, by the bins
+  double share_of_force_explained =
+      0;  // of that of the force: one that goes by the position cancels in mu_eff, there and back
   // The friction that the model `shown` gives at the same samples, mean of each bin (nan: it is more than the motion of
   // the base tells); and whether it changes with this variable while the others stay.
-  std::vector<double> law;
+  std::vector<double> law, law_force_mps2;  // as friction, and as the force that the base lacks
   bool law_follows = false;
 };
 
