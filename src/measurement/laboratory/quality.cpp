@@ -150,8 +150,11 @@ std::string check_clock(const std::string& whose, double late_s) {
 
 constexpr const char* check_sign = "looks mirrored: check the sign of slip_m against that of the floor";
 
-// A clock is off by one time: what swings, as contents and legs do, fits the floor nearly as well at others.
-bool at_fault(const Timing& timing) { return timing.wrong() && (timing.mirrored || timing.known()); }
+// A clock is off by one time: what swings, as contents and legs do, fits the floor nearly as well at others. And of so many lags one fits short
+// slips by chance: what is less sure is left to the fits.
+bool at_fault(const Timing& timing) {
+  return timing.wrong() && timing.p < chance_level && (timing.mirrored || timing.known());
+}
 
 struct SlipsSeen {
   bool settled = false;               // enough tests could be judged, so that no model is needed
@@ -184,8 +187,7 @@ SlipsSeen look_at_slips(const Bench& bench, Quality& quality) {
     timings.push_back(dt > 0 ? slip_timing(bench, i, static_cast<int>(longest_lag_s / dt)) : Timing{});
     if (dt <= 0) continue;
     const Timing far = slip_timing(bench, i, static_cast<int>(longest_lag_of_known_sign_s / dt), true);
-    // Of the many lags beyond a swing one fits short slips by chance.
-    if (at_fault(far) && far.p < chance_level && far.gain > timings.back().gain) timings.back() = far;
+    if (at_fault(far) && far.gain > timings.back().gain) timings.back() = far;
   }
   std::vector<std::string> in_units;
   SlipsSeen seen{false, std::vector<bool>(bench.size(), false)};
