@@ -1,9 +1,10 @@
 // How far a model is from the measured histories when the noise of the measured floor motion is allowed for, in full:
-// the residual r (as independent numbers of the sensors' noise, sensor.hpp) is judged by the covariance C = 1 + A A^T,
-// where the columns of A are the changes that replays of the floor's noise make, over sqrt(their count), those that what the floor does between
-// its readings may make (between_readings.hpp), a drift of
-// each sensor that drifts, and what one standard deviation of the test's own friction changes, where friction differs from
-// test to test. Directions in which that noise fans the motion out say nothing; all others count. r^T C^-1 r by Woodbury's identity; its expectation is the number of samples.
+// the residual r (as independent numbers of the sensors' noise, sensor.hpp) is judged by the covariance C = 1 + A A^T.
+// The columns of A are the changes that replays of the floor's noise make, over sqrt(their count); those that the floor
+// may make between its readings (between_readings.hpp); a drift of each sensor that drifts; and what one standard
+// deviation of the test's own friction changes, where friction differs from test to test. Directions in which that noise
+// fans the motion out say nothing; all others count. r^T C^-1 r by Woodbury's identity; its expectation is the number of
+// samples.
 //
 // A comes from one reference model, so that rivals are judged alike.
 #pragma once
