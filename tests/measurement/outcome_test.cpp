@@ -91,6 +91,20 @@ TEST(OutcomeFit, DrawsOfTheScatterHoldTheTruth) {
   EXPECT_LE(below, test::likely_counts(sets, 0.05).most);
 }
 
+// Nothing is open of the placements: draws are those of the effect's number by resampled tests, not the fit time and again.
+TEST(OutcomeFit, DrawsOfOtherNumbersScatterToo) {
+  const auto* offset_mass = effects::find("offset_mass");
+  const Dataset data = made_outcomes(40, {{offset_mass, {0.25}}});
+  const Bench bench(data, 0);
+  ModelSpec known = rocking_model(true_size_m);
+  known.slenderness = Number{.value = true_slenderness};
+  known.placement_scatter = Number{.value = true_scatter};
+  known.free.clear();
+  const ModelFit fit = fit_outcomes(bench, with_effect(known, *offset_mass, bench.reach()), {}, {}, run_here);
+  const auto [least, most] = std::ranges::minmax(fit.resampled);
+  EXPECT_LT(least[0], most[0]);
+}
+
 // All fell: however slender the block is, beyond some slenderness the tests say the same.
 TEST(OutcomeFit, TestsThatAllFellBoundASlendernessFromOneSide) {
   Dataset data = made_outcomes(6, {});

@@ -219,29 +219,32 @@ TableFit TableSearch::best(const std::vector<double>& weight, double among) cons
   return fit;
 }
 
-Values TableSearch::as_likely(const TableFit& fit, const std::array<double, 3>& u) const {
+std::vector<double> TableSearch::ln_likelihoods(const TableFit& fit) const {
   const std::size_t n = overturned_.size();
-  const int placed_by = placement_number(table_.model), scattered_by = scatter_number(table_.model);
-  if (placed_by < 0 && scattered_by < 0) return fit.x;
   double missed = 0, expected = 0;
-  for (std::size_t t = 0; t < n; ++t) {
-    missed += std::pow(fit.probability[t] - overturned_[t], 2);
-    expected += fit.probability[t] * (1 - fit.probability[t]);
-  }
+  for (std::size_t t = 0; t < n; ++t)
+    missed += std::pow(fit.probability[t] - overturned_[t], 2),
+        expected += fit.probability[t] * (1 - fit.probability[t]);
   const double excess = expected > 0 ? std::max(1.0, missed / expected) : 1;
   const double least = 0.5 / static_cast<double>(std::max<std::size_t>(table_.places.count, 1));  // half a place
-  std::vector<std::size_t> rows;
-  std::vector<double> likelihood;  // its logarithm, then the sum so far
+  std::vector<double> all;
   for (std::size_t r = 0; r < rows_.size(); ++r) {
-    if (rows_[r].point != fit.point) continue;
     double sum = 0;
     for (std::size_t t = 0; t < n; ++t) {
       const double p = std::clamp(static_cast<double>(probability_[r * n + t]), least, 1 - least);
       sum += std::log(overturned_[t] > 0 ? p : 1 - p);
     }
-    rows.push_back(r);
-    likelihood.push_back(sum / excess);
+    all.push_back(sum / excess);
   }
+  return all;
+}
+
+Values TableSearch::as_likely(std::size_t point, const std::vector<double>& ln_likelihoods,
+                              const std::array<double, 3>& u) const {
+  std::vector<std::size_t> rows;
+  std::vector<double> likelihood;  // its logarithm, then the sum so far
+  for (std::size_t r = 0; r < rows_.size(); ++r)
+    if (rows_[r].point == point) rows.push_back(r), likelihood.push_back(ln_likelihoods[r]);
   const double most = *std::ranges::max_element(likelihood);
   double total = 0;
   for (double& l : likelihood) l = total += std::exp(l - most);
@@ -250,11 +253,10 @@ Values TableSearch::as_likely(const TableFit& fit, const std::array<double, 3>& 
   const auto within = [&](int number, double step, double share) {
     if (number < 0) return;
     const auto i = static_cast<std::size_t>(number);
-    const Free& free = table_.model.free[i];
-    x[i] = std::clamp(x[i] * std::exp(step * (share - 0.5)), free.lower, free.upper);
+    x[i] = std::clamp(x[i] * std::exp(step * (share - 0.5)), table_.model.free[i].lower, table_.model.free[i].upper);
   };
-  within(placed_by, middle_step, u[1]);
-  within(scattered_by, scatter_step, u[2]);
+  within(placement_number(table_.model), middle_step, u[1]);
+  within(scatter_number(table_.model), scatter_step, u[2]);
   return x;
 }
 

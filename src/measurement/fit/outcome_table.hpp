@@ -54,10 +54,12 @@ class TableSearch {
   // Least mean score with these weights of the tests; all alike where empty. Of rows with the same score, which may be many where few tests
   // say little, the one at that share of them.
   TableFit best(const std::vector<double>& weight = {}, double among = 0) const;
-  // Middle and scatter at the fit's point as they may be by what all tests say of them: its rows by their likelihood (ln scatter and ln middle are
-  // even before), and within a row's cell anywhere. u: three uniform numbers. Where the fit misses the tests by more than its own probabilities
-  // make it, the likelihood says so much less.
-  Values as_likely(const TableFit& fit, const std::array<double, 3>& u) const;
+  // Logarithm of the likelihood of each row, all tests alike. Where the fit misses the tests by more than its own probabilities make it, that says so
+  // much less.
+  std::vector<double> ln_likelihoods(const TableFit&) const;
+  // Middle and scatter at a point as they may be: its rows by these (ln scatter and ln middle are even before), and within a row's cell
+  // anywhere. u: three uniform numbers.
+  Values as_likely(std::size_t point, const std::vector<double>& ln_likelihoods, const std::array<double, 3>& u) const;
   // Of each set of outcomes (a column, 0 or 1 of each test): the least sum of squares of the rows, and that of tests left out in turn (fold_of),
   // by the rows that are least in the others.
   Eigen::VectorXf least_squares(const Eigen::MatrixXf& outcomes) const;

@@ -132,25 +132,18 @@ class Doubter {
 
   void channels(std::size_t i) {
     const Test& test = bench_.test(i);
+    // As one of the tests before that one, or of all others.
+    const auto same = [&](std::size_t before, Seen& seen, const auto& alike) {
+      for (std::size_t other = 0; other < before; ++other)
+        if (other != i && alike(other)) return seen.add(test, 0);
+    };
     for (int c = 0; c < channel_count; ++c) {
       const auto channel = static_cast<Channel>(c);
       if (const double frozen = frozen_s(bench_, i, channel); frozen > 0) frozen_[c].add(test, frozen);
-      for (std::size_t other = 0; other < bench_.size(); ++other)
-        if (other != i && same_history(bench_, i, other, channel)) {
-          copied_[c].add(test, 0);
-          break;
-        }
+      same(bench_.size(), copied_[c], [&](std::size_t other) { return same_history(bench_, i, other, channel); });
     }
-    for (std::size_t other = 0; other < bench_.size(); ++other)
-      if (other != i && same_floor(bench_, i, other)) {
-        same_floors_.add(test, 0);
-        break;
-      }
-    for (std::size_t other = 0; other < i; ++other)
-      if (same_peaks(bench_, i, other)) {
-        same_peaks_.add(test, 0);
-        break;
-      }
+    same(bench_.size(), same_floors_, [&](std::size_t other) { return same_floor(bench_, i, other); });
+    same(i, same_peaks_, [&](std::size_t other) { return same_peaks(bench_, i, other); });
     if (test.start.upright_at_rest() && turns_against_floor(bench_, i)) turned_.add(test, 0);
     const double share = share_of_floor(bench_, {i}, without_slip_).value;
     if (share != 0 && !is_nearest_to_one(share)) shares_.add(test, share);

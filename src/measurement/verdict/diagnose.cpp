@@ -6,7 +6,6 @@
 #include <cmath>
 #include <freestand/error.hpp>
 #include <map>
-#include <utility>
 
 #include "measurement/fit/outcome_fit.hpp"
 #include "measurement/fit/starts.hpp"
@@ -187,7 +186,7 @@ class Diagnoser : PairSearch {
       const Judge judge = judge_of(out_.base.fit);
       out_.chances.clear();
       out_.strays = judge.strays();
-      tell_unread_floors(judge);
+      if (out_.friction_scatter == 0) tell_unread_floors(judge);
       if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
       if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance()) {
         out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
@@ -202,7 +201,6 @@ class Diagnoser : PairSearch {
 
   // Said where a floor was read so seldom that this tells more of a history's error than sensors and the floor's noise together.
   void tell_unread_floors(const Judge& judge) {
-    if (std::exchange(unread_told_, true)) return;
     double most = 0;
     std::string where;
     for (std::size_t i = 0; i < tests_; ++i) {
@@ -255,7 +253,6 @@ class Diagnoser : PairSearch {
   }
 
   std::string clocks_at_fault_;  // a sentence; empty: none is
-  bool unread_told_ = false;
 };
 
 }  // namespace
