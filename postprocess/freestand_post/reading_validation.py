@@ -43,6 +43,8 @@ class Table:
     columns: dict            # name -> values
     share_explained: float = np.nan
     share_of_force_explained: float = np.nan
+    share_by_chance: float = 0
+    share_of_force_by_chance: float = 0
     law_effects: list = field(default_factory=list)
     law_follows: bool = False  # the law changes with this variable
 
@@ -176,7 +178,8 @@ def _table(node, columns):
     size = len(label) or len(node.items("centre"))
     table = Table(node.text("variable"), node.text("unit", "1"), label, node.numbers("edge"), node.numbers("centre", size),
                   node.numbers("count", size), {key: node.numbers(key, size) for key in columns.split()},
-                  node.number("share_explained"), node.number("share_of_force_explained"))
+                  node.number("share_explained"), node.number("share_of_force_explained"),
+                  np.nan_to_num(node.number("share_by_chance")), np.nan_to_num(node.number("share_of_force_by_chance")))
     law = node.node("law")
     if law:
         table.columns["law"] = law.numbers("mu", size)

@@ -146,11 +146,15 @@ void show(const MotionOptions& options, const CLI::App& verb) {
   const motion::Processing wanted = processing(options);
   std::vector<motion::ToldRecord> told;
   for (const std::string& file : options.files) {
-    const FloorMotion motion = motion::processed(motion::read_record(file, read), wanted);
+    FloorMotion motion = motion::processed(motion::read_record(file, read), wanted);
     told.push_back({file, options.unit, options.channel, motion::record_figures(motion)});
-    const std::string sign = motion::vertical_sign(file);
-    fmt::print("{}\n{}", file, motion::figures_text(told.back().figures, !sign.empty()));
-    if (!sign.empty()) fmt::print("  a vertical component: {}\n", sign);
+    const motion::Direction direction = motion::direction_of(file, read);
+    fmt::print("{}\n{}", file, motion::figures_text(told.back().figures, !direction.vertical.empty()));
+    if (!direction.vertical.empty()) fmt::print("  a vertical component: {}\n", direction.vertical);
+    if (direction.down && !options.convert.empty()) {
+      for (double& value : motion.horizontal_mps2) value = -value;
+      fmt::print("  positive downwards in the file, and upwards in {}\n", options.convert);
+    }
     std::optional<Floors> floors;
     if (building) fmt::print("{}", floors.emplace(motion, *building).text());
     if (!options.convert.empty())

@@ -68,9 +68,13 @@ bool borrow_lognormals(std::vector<PartsPoint>& parts) {
   return true;
 }
 
-// How far straight lines between the points are off the curve that annual rates go by, within these places.
+// How far straight lines between the points are off the counts, within these places, and annual rates by them off those by the curve that
+// `risk` goes by: the lognormal where that is adequate.
 void measure_lines(LimitState& state, const std::vector<double>& places) {
   constexpr int checked = 400;
+  Curve lognormal;
+  lognormal.form = Form::lognormal;
+  lognormal.median = state.fitted.median, lognormal.dispersion = state.fitted.dispersion;
   double of_lines[3] = {}, of_curve[3] = {};
   for (int i = 0; i <= checked; ++i) {
     const double im = places.front() * std::pow(places.back() / places.front(), i / static_cast<double>(checked));
@@ -79,11 +83,17 @@ void measure_lines(LimitState& state, const std::vector<double>& places) {
     for (int k = 0; k < 3; ++k) {
       const double events = std::pow(im / places.front(), -(k + 1));
       of_lines[k] += line * events;
-      of_curve[k] += curve * events;
+      of_curve[k] += (state.fitted.adequate ? probability(lognormal, im) : curve) * events;
     }
   }
   for (int k = 0; k < 3; ++k)
     if (of_curve[k] > 0) state.rate_by_lines[k] = of_lines[k] / of_curve[k];
+}
+
+// With the intensity, by its fragility function.
+bool grows(const Wanted& wanted) {
+  const auto& functions = wanted.edp->functions;
+  return wanted.capacity < functions.size() && std::isfinite(functions[wanted.capacity].median);
 }
 
 }  // namespace
@@ -98,7 +108,8 @@ std::string label(const Wanted& wanted) {
 Refusal make_lognormal(LimitState& state, const Wanted& wanted) {
   const Fitted& fitted = state.fitted;
   if (!std::isfinite(fitted.median) || !(fitted.dispersion > 0))
-    return fmt::format("{} has no fitted lognormal (nothing to fit one to): use --form discrete", label(wanted));
+    return fmt::format("{} has no fitted lognormal ({}): use --form discrete", label(wanted),
+                       grows(wanted) ? "one over another intensity is none over this" : "nothing to fit one to");
   if (fitted.not_refuted && std::isnan(fitted.off_by))
     return fmt::format(
         "the lognormal of {} is not known to be adequate (two bins or less have shares, and a lognormal meets any "
@@ -147,12 +158,11 @@ Refusal make_discrete(LimitState& state, const Wanted& wanted, const fragility::
   state.curve.form = Form::discrete;
   using Shape = fragility::CountedCurve::Shape;
   // What grows with no intensity is handed on as one that never falls: by its pooled bins, not by cells that rise and fall.
-  const bool grows = wanted.capacity < edp.functions.size() && std::isfinite(edp.functions[wanted.capacity].median);
-  const Shape shape = grows ? Shape(edp.functions[wanted.capacity]) : Shape();
+  const Shape shape = grows(wanted) ? Shape(edp.functions[wanted.capacity]) : Shape();
   state.counted.emplace(shares, shape);
   state.drawn.emplace(bins, straight ? Shape{} : shape);
   double least = bins.front().im, most = bins.back().im;
-  if (!straight && grows) {
+  if (!straight && grows(wanted)) {
     const fragility::FragilityFunction& f = edp.functions[wanted.capacity];
     least = f.im_least, most = f.im_most;
   }

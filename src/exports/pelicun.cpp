@@ -30,7 +30,7 @@ Demand demand_of(const Intensity& im) {
   if (im.name == "pga_g" || im.name == "pta_g") return {"Peak Floor Acceleration", "g"};
   if (im.name == "pgv_mps") return {"Peak Floor Velocity", "mps"};
   if (im.name == "pgd_m") return {"Peak Floor Displacement", "m"};
-  if (im.name == "sa_g") return {fmt::format("Spectral Acceleration|{}", im.period_s), "g"};
+  if (im.name == "sa_g") return {fmt::format("Spectral Acceleration|{:#}", im.period_s), "g"};
   if (im.name.starts_with("record.") || im.name.starts_with("ground."))
     throw Error(fmt::format(
         "pelicun has no demand for {} (its demands are those of the floor on which a component stands, not of the "

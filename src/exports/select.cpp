@@ -19,6 +19,7 @@ using fragility::Result;
 Fitted fitted_of(const Wanted& wanted) {
   if (wanted.capacity >= wanted.edp->functions.size()) return {};
   const fragility::FragilityFunction& f = wanted.edp->functions[wanted.capacity];
+  if (!(f.dispersion > 0)) return {};
   return {f.median,   f.median_se,    f.dispersion,   f.dispersion_se, f.off_by,
           f.adequate, not_refuted(f), f.extrapolated, rates_differ(f)};
 }
@@ -139,10 +140,28 @@ void tell_rates_by_lines(Model& model) {
                          [](double a, double b) { return std::fabs(std::log(a)) < std::fabs(std::log(b)); });
     if (*worst >= 0.95 && *worst <= 1.05) continue;
     model.notes.push_back(
-        fmt::format("{}: annual rates by these straight lines are {:.2g} times those that `freestand risk` gives, "
-                    "where the hazard falls by "
-                    "im^-{}: over narrower bins, or from the folder of the sweep, they are nearer",
-                    state.name, *worst, worst - state.rate_by_lines + 1));
+        fmt::format("{}: annual rates by these straight lines are {:.2g} times those that `freestand risk` gives by "
+                    "its {}, where the hazard "
+                    "falls by im^-{}: {}",
+                    state.name, *worst, state.fitted.adequate ? "lognormal" : "counts", worst - state.rate_by_lines + 1,
+                    state.fitted.adequate
+                        ? "exported alone, the lognormal itself goes out"
+                        : "over narrower bins, or out of a database from the folder of its sweep, they are nearer"));
+  }
+}
+
+// A list of states says that each holds the next, and its users subtract: what overturns exceeds every capacity of a continuous demand, but other
+// demands are exceeded by samples of their own.
+void tell_other_demands(Model& model) {
+  for (std::size_t s = 1; s < model.states.size(); ++s) {
+    const LimitState &milder = model.states[s - 1], &graver = model.states[s];
+    if (milder.demand == graver.demand || (!std::isnan(milder.capacity) && graver.demand == "overturned")) continue;
+    model.notes.push_back(fmt::format(
+        "{} is of another demand than {}: a list of states is read as if each held the next, so that P({} and not {}) "
+        "is the "
+        "difference of the two, which is too little where samples reach the second without the first: export "
+        "them one by one where that matters",
+        graver.name, milder.name, milder.name, graver.name));
   }
 }
 
@@ -167,6 +186,7 @@ void take_notes(Model& model, const Result& result, Form form, bool table) {
         fmt::format("straight lines between {} bins; below the lowest, at {:.4g}{}, to 0 at 0; above the highest, at "
                     "{:.4g}{}, probabilities stay",
                     bins.size(), bins.front().im, unit, bins.back().im, unit));
+  if (!table) tell_other_demands(model);
   for (const LimitState& state : model.states) {
     if (state.pooled > tolerance)
       model.notes.push_back(fmt::format("{}: bins that fell within their bands were pooled, by {:.2g} at most",
@@ -312,14 +332,42 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
   throw Error(refusal);
 }
 
+namespace {
+
+// What is known of it over another intensity: the shares of cells. A lognormal over the one is none over the other.
+fragility::FragilityFunction by_cells(const fragility::FragilityFunction& f, const Result& result) {
+  fragility::FragilityFunction known;
+  known.median = f.median;
+  known.im_least = f.im_least, known.im_most = f.im_most;
+  known.cell_im = f.cell_im, known.cell_n = f.cell_n, known.cell_share = f.cell_share;
+  if (!known.cell_share.empty() || !(f.dispersion > 0)) return known;
+  Curve lognormal;
+  lognormal.form = Form::lognormal;
+  lognormal.median = f.median, lognormal.dispersion = f.dispersion;
+  for (std::size_t i = 0; i < result.cell_im.size(); ++i) {
+    if (result.cell_n[i] == 0) continue;
+    known.cell_im.push_back(result.cell_im[i]);
+    known.cell_n.push_back(static_cast<double>(result.cell_n[i]));
+    known.cell_share.push_back(result.cell_im[i] > 0 ? probability(lognormal, result.cell_im[i]) : 0);
+  }
+  return known;
+}
+
+}  // namespace
+
 Result as_pta(Result result, double mu) {
   const auto convert = [&](double& im) { im = mu * (im + 1); };
+  for (EdpResult& edp : result.edps)
+    for (fragility::FragilityFunction& f : edp.functions) {
+      f = by_cells(f, result);
+      for (double* im : {&f.median, &f.im_least, &f.im_most}) convert(*im);
+      std::for_each(f.cell_im.begin(), f.cell_im.end(), convert);
+    }
   std::for_each(result.im_edge.begin(), result.im_edge.end(), convert);
   std::for_each(result.im.begin(), result.im.end(), convert);
   std::for_each(result.cell_im.begin(), result.cell_im.end(), convert);
   result.im_name = std::string("pta_g");
   result.im_unit = std::string("g");
-  for (EdpResult& edp : result.edps) edp.functions.clear();
   return result;
 }
 

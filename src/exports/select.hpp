@@ -28,8 +28,8 @@ struct Request {
 // states that cross, a form that would not be honest.
 Model select(const fragility::Result&, const Intensity&, const Request&, const Format&);
 
-// The report's intensity PTA/(mu g) - 1 as PTA in g, where all samples have one mu. The fitted functions are left behind:
-// a lognormal in one is none in the other.
+// The report's intensity PTA/(mu g) - 1 as PTA in g, where all samples have one mu. Of the fitted functions the
+// shares of fine cells are kept: a lognormal in one is none in the other.
 fragility::Result as_pta(fragility::Result, double mu);
 
 const char* name(Form);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "motion/component.hpp"
+#include "motion/record.hpp"
 #include "motion/record_format.hpp"
 
 namespace freestand::motion::format_at2 {
@@ -41,21 +42,40 @@ Size read_size(const RecordText& text, std::size_t line) {
   return {text.count(line, count), text.number(line, dt)};
 }
 
+bool is_unit(const std::string& word) {
+  try {
+    return acceleration_unit_mps2(word) > 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+// "IN UNITS OF G. FILTER POINTS: ...", "UNITS: M/S2", "TIME SERIES IN CM/S2", "ACCELERATION (M/S2)". What stands behind "units of" is the unit
+// whether it is known or not; elsewhere a unit alone is one.
+std::string unit_in(const std::string& line) {
+  const auto words = split(line, " \t,()[]:=;");
+  for (std::size_t i = 1; i < words.size(); ++i) {
+    std::string word(words[i]);
+    while (word.ends_with('.')) word.pop_back();
+    const std::string_view before = words[i - 1];
+    if (i > 1 && before == "of" && words[i - 2] == "units") return word;
+    const bool behind = before == "units" || before == "unit" || before == "in" || before == "of" || before == "are";
+    const bool enclosed =
+        line.find("(" + word + ")") != std::string::npos || line.find("[" + word + "]") != std::string::npos;
+    if ((behind || (enclosed && word != "g")) && is_unit(word)) return word;
+  }
+  return "";
+}
+
 std::string read_unit(const RecordText& text, std::size_t until) {
   for (std::size_t i = 0; i < until; ++i) {
     const std::string line = lower_case(text.line(i));
     if (line.find("velocity time series") != std::string::npos ||
         line.find("displacement time series") != std::string::npos)
       text.fail(i, "not a record of acceleration (the header says so): use the .AT2 file");
-    const std::size_t place = line.find("units of ");
-    if (place == std::string::npos) continue;
-    const auto parts = split(std::string_view(line).substr(place + 9), " ,()");
-    if (parts.empty()) continue;
-    std::string unit(parts.front());  // "G. FILTER POINTS: ..." in the oldest files
-    while (unit.ends_with('.')) unit.pop_back();
-    return unit;
+    if (const std::string unit = unit_in(line); !unit.empty()) return unit;
   }
-  return "g";
+  return "";
 }
 
 // The last entry of the line of event, date, station and component: "..., Corralitos, UP".
@@ -74,7 +94,7 @@ bool recognises(const RecordText& text) { return count_line(text) < std::min(tex
 RawRecord read(const RecordText& text) {
   std::size_t line = count_line(text);
   const Size size = read_size(text, line);
-  RawRecord record{size.dt_s, read_unit(text, line), {RawChannel{}}};
+  RawRecord record{size.dt_s, read_unit(text, line), {RawChannel{}}, "g"};
   ++line;
   record.channels[0].values = text.block(line, size.count);
   text.ends_at(line, size.count);

@@ -59,6 +59,7 @@ RawRecord read(const RecordText& text) {
     RawChannel channel = named_channel(name_of(text, from, header_line));
     const std::size_t count = text.count(header_line, split(header, " ").front());
     channel.values = oriented(channel, text.block(line, count, column_width(behind(header, "format="))));
+    text.no_numbers_at(line, count);
     record.channels.push_back(std::move(channel));
     from = line;
   }

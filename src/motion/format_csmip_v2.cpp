@@ -51,6 +51,7 @@ RawRecord read(const RecordText& text) {
     agree(text, header_line, record, text.number(header_line, step.front()), unit_of(header));
     RawChannel channel = named_channel(name_of(text, from, header_line));
     channel.values = oriented(channel, text.block(line, count, column_width(format)));
+    text.no_numbers_at(line, count);
     record.channels.push_back(std::move(channel));
     from = line;
   }

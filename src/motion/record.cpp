@@ -63,6 +63,7 @@ double stated_unit(const RecordText& text, const std::string& unit) {
 }
 
 double choose_unit(const RecordText& text, const RawRecord& raw, const ReadOptions& options) {
+  if (raw.unit.empty() && options.unit.empty() && !raw.usual_unit.empty()) return stated_unit(text, raw.usual_unit);
   if (raw.unit.empty() && options.unit.empty())
     throw Error(
         fmt::format("{}: the unit of acceleration is not known (the file does not say it): give unit, "
@@ -114,6 +115,13 @@ struct Samples {
   std::string start = {};
 };
 
+// The shorter one ends at rest.
+void as_long(Samples& samples) {
+  const std::size_t size = std::max(samples.horizontal.size(), samples.vertical.size());
+  samples.horizontal.resize(size, 0.0);
+  samples.vertical.resize(size, 0.0);
+}
+
 Samples read_samples(const std::filesystem::path& path, const ReadOptions& options) {
   const RecordText text(path);
   const RawRecord raw = choose_format(text, options.format).read(text);
@@ -125,9 +133,9 @@ Samples read_samples(const std::filesystem::path& path, const ReadOptions& optio
   if (options.component == Component::vertical && !chosen.vertical && points_down(path))
     for (double& value : samples.horizontal) value = -value;
   for (const RawChannel& channel : raw.channels)
-    if (channel.vertical && &channel != &chosen && channel.values.size() == chosen.values.size() &&
-        samples.vertical.empty())
+    if (channel.vertical && &channel != &chosen && samples.vertical.empty())
       samples.vertical = in_mps2(channel.values, unit);
+  if (!samples.vertical.empty()) as_long(samples);
   return samples;
 }
 
@@ -158,9 +166,7 @@ void add_vertical(const std::filesystem::path& path, Samples& samples, const Rea
   Samples vertical = read_samples(options.vertical_file, own);
   check_pair(path, samples, options, options.vertical_file, vertical);
   samples.vertical = std::move(vertical.horizontal);
-  const std::size_t size = std::max(samples.horizontal.size(), samples.vertical.size());
-  samples.horizontal.resize(size, 0.0);
-  samples.vertical.resize(size, 0.0);
+  as_long(samples);
 }
 
 // Cosine of an angle in degrees, exact at right angles.
@@ -195,6 +201,16 @@ void turn(Samples& samples, std::vector<double> cross, double angle_deg) {
 }
 
 }  // namespace
+
+Direction direction_of(const std::filesystem::path& path, const ReadOptions& options) {
+  const RecordText text(path);
+  const RawRecord raw = choose_format(text, options.format).read(text);
+  // A channel that is called vertical was turned over as it was read.
+  if (const RawChannel& chosen = choose_channel(text, raw, options); chosen.vertical)
+    return {.vertical = fmt::format("channel {} is", chosen.name)};
+  if (raw.channels.size() > 1) return {};
+  return {.vertical = vertical_sign(path), .down = points_down(path)};
+}
 
 FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& options) {
   Samples samples = read_samples(path, options);

@@ -36,6 +36,14 @@ struct ReadOptions {
 // stated start of time, or, where the files state none, the same length, unless the user says that they do; else Error (Exit::data) names both.
 FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& options = {});
 
+// What is known of the direction of the channel that these options choose.
+struct Direction {
+  std::string vertical;  // the sign of a vertical one, in words; empty: horizontal
+  bool down =
+      false;  // positive downwards in the file, and read so by read_record(): channels that are called vertical are not
+};
+Direction direction_of(const std::filesystem::path& path, const ReadOptions& options = {});
+
 // Files that a pattern (`*`, `?`, `[...]`) matches, or the files of a folder, sorted by name; a relative pattern starts
 // at `base`. Throws Error when there is none.
 std::vector<std::filesystem::path> expand_glob(const std::string& pattern, const std::filesystem::path& base = {});

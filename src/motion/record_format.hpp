@@ -21,7 +21,8 @@ struct RawRecord {
   std::optional<double> dt_s;
   std::string unit;
   std::vector<RawChannel> channels;
-  std::string start = {};  // time of the first sample, in the file's words; "" where it does not say
+  std::string usual_unit = {};  // of such files, where this one does not say and nor does the user
+  std::string start = {};       // time of the first sample, in the file's words; "" where it does not say
 };
 
 struct RecordFormat {

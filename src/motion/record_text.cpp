@@ -180,6 +180,12 @@ void RecordText::ends_at(std::size_t line, std::size_t expected) const {
     if (!trim(lines_[line]).empty()) surplus(line, expected);
 }
 
+void RecordText::no_numbers_at(std::size_t line, std::size_t expected) const {
+  while (line < size() && trim(lines_[line]).empty()) ++line;
+  if (line < size() && lines_[line].find_first_not_of("0123456789.+-eEdD \t") == std::string_view::npos)
+    surplus(line, expected);
+}
+
 void RecordText::surplus(std::size_t line, std::size_t expected) const {
   fail(line, fmt::format("more values here (the header says {} in all): correct the header or the file", expected));
 }

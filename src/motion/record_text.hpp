@@ -48,6 +48,9 @@ class RecordText {
   // Throws when there is more than blank lines from `line` on.
   void ends_at(std::size_t line, std::size_t expected) const;
 
+  // Throws where the next line that is not blank holds numbers alone: of formats in which something else follows.
+  void no_numbers_at(std::size_t line, std::size_t expected) const;
+
   // Constant step of the times in column order; `lines` says on which line each stands. Throws where a time is further
   // than 5 % of a step off the even grid.
   double even_step(const std::vector<double>& times, const std::vector<std::size_t>& lines) const;

@@ -136,6 +136,7 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   open_numbers(*after->bench, fit, jobs);
 
   std::vector<LadderStep> ladder = before->validation.ladder;
+  if (before->measurements != before->validation.measurements) ladder.clear();  // it is of other tests
   if (ladder.empty()) {
     ModelFit told = base;  // as `compare` tells it
     open_numbers(*before->bench, told, jobs);
@@ -143,6 +144,7 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   }
   ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fit, jobs));
   write_numbers(root, fit);
+  model.remove("discrepancy");  // of the model without the effect
   root["ladder"] = ladder_node(ladder);
   write_paths(root, *before, folder);
   return study_text(root);

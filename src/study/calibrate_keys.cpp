@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "effects/effects.hpp"
+#include "measurement/predict/placements.hpp"
 #include "study/section.hpp"
 
 namespace freestand::study {
@@ -128,6 +130,8 @@ void scatter_placements(YAML::Node block, double scatter) {
     YAML::Node spread(YAML::NodeType::Map);
     spread["lognormal"]["median"] = block[key].Scalar();
     spread["lognormal"]["dispersion"] = fmt::format("{:.6g}", scatter);
+    if (std::string_view(key) == "slenderness_rad")
+      spread["lognormal"]["max"] = fmt::format("{}", measurement::steepest_rad);
     block[key] = spread;
     return;
   }

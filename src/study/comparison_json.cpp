@@ -213,6 +213,13 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
   Comparison c = measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, open, jobs), quality);
   for (std::string& finding : measurement::undetermined(fit)) c.findings.push_back(std::move(finding));
 
+  if (open.friction_scatter > 0 && !draws_friction(fit.model, open))
+    c.findings.push_back(
+        fmt::format("friction differs by {:.2g} % from test to test, and the study gives it as a number: bands and "
+                    "sweeps hold none of that until "
+                    "it is fitted with the others (mu: {{calibrate: [0.05, 1]}})",
+                    100 * open.friction_scatter));
+  if (const std::string level = level_tests(*p); !level.empty()) c.findings.push_back(level);
   if (fit.evaluations == 0 && !open.better.empty()) c.findings.push_back(better_numbers(fit, open.better));
 
   std::vector<std::string> effects;

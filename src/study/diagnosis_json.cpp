@@ -86,6 +86,8 @@ Json recovered_json(const Bench& bench, const Diagnosis& d, const Candidate& sho
                               {"force_upper_mps2", numbers_or_null(t.force_upper_mps2)},
                               {"share_explained", number_or_null(t.share_explained)},
                               {"share_of_force_explained", number_or_null(t.share_of_force_explained)},
+                              {"share_by_chance", number_or_null(t.share_by_chance)},
+                              {"share_of_force_by_chance", number_or_null(t.share_of_force_by_chance)},
                               {"law",
                                {{"effects", shown.effects},
                                 {"mu", numbers_or_null(t.law)},

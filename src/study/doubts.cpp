@@ -220,12 +220,9 @@ FloorMotion channel_of(const FloorMotion& motion, MotionValues FloorMotion::*cha
 
 // Those that shake the block of this study.
 std::vector<FloorMotion> channels_of(const FloorMotion& motion, const Study& study) {
-  const auto& effects = study.model.effects;
   std::vector<FloorMotion> channels{channel_of(motion, &FloorMotion::horizontal_mps2, "")};
   if (!motion.cross_mps2.empty()) channels.push_back(channel_of(motion, &FloorMotion::cross_mps2, "second"));
-  if (!motion.vertical_mps2.empty() && std::any_of(effects.begin(), effects.end(), [](const EffectPart& part) {
-        return part.effect->name == "vertical_shaking";
-      }))
+  if (!motion.vertical_mps2.empty() && shakes_vertically(study.model))
     channels.push_back(channel_of(motion, &FloorMotion::vertical_mps2, "vertical"));
   return channels;
 }
@@ -241,12 +238,27 @@ double scaling(const MotionSource& source, const FloorMotion& ground) {
   return std::isfinite(here) && here != 0 ? std::abs(usual(*source.amplitude) / here) : 0;
 }
 
+// Motions on which vertical_shaking does not act, beside others on which it does.
+std::string moved_sideways_alone(const Study& study, const MotionSet& motions) {
+  std::vector<std::string> level;
+  const auto& entries = *motions.entries;
+  for (std::size_t i = 0; shakes_vertically(study.model) && i < entries.size(); ++i)
+    if (entries[i].motion.vertical_mps2.empty()) level.push_back(entries[i].motion.name);
+  if (level.empty()) return "";
+  return fmt::format(
+      "vertical_shaking acts on {} of {} motions: no vertical channel is there of {}, which are swept as if the floor "
+      "moved sideways alone: "
+      "give theirs, or leave these out",
+      entries.size() - level.size(), entries.size(), some(level, 10));
+}
+
 }  // namespace
 
 std::vector<std::string> doubts(const Study& study) { return doubts_of_numbers(study, false); }
 
 std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& motions) {
   std::vector<std::string> said;
+  if (const std::string level = moved_sideways_alone(study, motions); !level.empty()) said.push_back(level);
   for (std::size_t s = 0; s < study.motions.size(); ++s) {
     const MotionSource& source = study.motions[s];
     if (source.kind != MotionSource::Kind::records) continue;

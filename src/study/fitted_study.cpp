@@ -54,6 +54,7 @@ void name_placement_scatter(YAML::Node root, const Prepared& p) {
 }
 
 void write_numbers(YAML::Node root, const ModelFit& fit, const std::string& table) {
+  add_missing_parameters(root["model"]);  // of effects that are named alone
   write_fitted(root["model"], "", numbers_of(fit, table));
 }
 

@@ -9,6 +9,7 @@
 
 #include "base/lab_table.hpp"
 #include "base/shown_text.hpp"
+#include "measurement/data/floor_readings.hpp"
 #include "measurement/laboratory/timing.hpp"
 #include "measurement/noise/third_differences.hpp"
 #include "measurement/predict/bench.hpp"
@@ -216,7 +217,7 @@ class Importer {
     t.test.slip_m = of(response, times, lab.slip);
     t.test.rotation_rad = of(response, times, lab.rotation);
     t.test.block_acceleration_mps2 = of(response, times, lab.block_acceleration);
-    t.test.motion = piecewise_linear(lab.id, step_s_, t.floor, {});
+    measurement::read_floor(t.test, {lab.id, step_s_, t.floor});
     return t;
   }
 

@@ -14,6 +14,7 @@ namespace {
 struct FreeNumber {
   const char* name;
   double low, high, nothing;
+  const char* unit;
 };
 
 LawForm form(const char* name, const char* variable, const char* factor, const char* force,
@@ -29,7 +30,7 @@ LawForm form(const char* name, const char* variable, const char* factor, const c
     p.low = n.low;
     p.high = n.high;
     p.neutral = n.nothing;
-    p.unit = std::string(p.name.ends_with("_m") ? "m" : p.name.ends_with("_s") ? "s" : "");
+    p.unit = n.unit;
     // Ten times beyond where fits start; amplitudes of friction that would turn it round are refused by the model itself.
     p.lower = positive ? n.low / 10 : 10 * n.low;
     p.upper = 10 * n.high;
@@ -42,20 +43,24 @@ LawForm form(const char* name, const char* variable, const char* factor, const c
 // Waves of a floor are told by both amplitudes, so that no phase has to be found. No two variables have a name of a number in common.
 const std::vector<LawForm>& law_forms() {
   static const std::vector<LawForm> all = {
-      form("law_of_position", "position_m", "1 + a*u", "", {{"a", -4, 4, 0}}),
-      form("law_of_position_squared", "position_m", "1 + a*u + b*u^2", "", {{"a", -4, 4, 0}, {"b", -20, 20, 0}}),
+      form("law_of_position", "position_m", "1 + a*u", "", {{"a", -4, 4, 0, "1/m"}}),
+      form("law_of_position_squared", "position_m", "1 + a*u + b*u^2", "",
+           {{"a", -4, 4, 0, "1/m"}, {"b", -20, 20, 0, "1/m2"}}),
       form("waves_over_position", "position_m", "1 + a*sin(2*pi*u/l) + b*cos(2*pi*u/l)", "",
-           {{"a", -0.6, 0.6, 0}, {"b", -0.6, 0.6, 0}, {"l_m", 0.03, 0.4, 0.1}}),
-      form("law_of_time", "time_s", "1 + d*t", "", {{"d", -0.1, 0.1, 0}}),
-      form("saturating_over_time", "time_s", "1 + d*(1 - exp(-t/e))", "", {{"d", -0.6, 1.5, 0}, {"e_s", 0.5, 20, 5}}),
-      form("law_of_path", "path_m", "1 + f*path", "", {{"f", -1, 1, 0}}),
-      form("law_of_speed", "speed_mps", "1 + h*speed + i*speed^2", "", {{"h", -2, 2, 0}, {"i", -4, 4, 0}}),
-      form("law_of_normal_force", "normal_g", "1 + j*(normal - 1)", "", {{"j", -0.8, 0.8, 0}}),
-      form("healing_at_rest", "rest_s", "1 + q*log(1 + rest/r)", "", {{"q", 0.02, 0.6, 0}, {"r_s", 0.02, 1, 0.1}}),
-      form("quadratic_drag", "speed_mps", "", "-c*v*abs(v)", {{"c", 0.3, 20, 0}}),
-      form("cubic_spring", "position_m", "", "-k*u^3", {{"k", 1, 3000, 0}}),
+           {{"a", -0.6, 0.6, 0, "1"}, {"b", -0.6, 0.6, 0, "1"}, {"l_m", 0.03, 0.4, 0.1, "m"}}),
+      form("law_of_time", "time_s", "1 + d*t", "", {{"d", -0.1, 0.1, 0, "1/s"}}),
+      form("saturating_over_time", "time_s", "1 + d*(1 - exp(-t/e))", "",
+           {{"d", -0.6, 1.5, 0, "1"}, {"e_s", 0.5, 20, 5, "s"}}),
+      form("law_of_path", "path_m", "1 + f*path", "", {{"f", -1, 1, 0, "1/m"}}),
+      form("law_of_speed", "speed_mps", "1 + h*speed + i*speed^2", "",
+           {{"h", -2, 2, 0, "s/m"}, {"i", -4, 4, 0, "s2/m2"}}),
+      form("law_of_normal_force", "normal_g", "1 + j*(normal - 1)", "", {{"j", -0.8, 0.8, 0, "1"}}),
+      form("healing_at_rest", "rest_s", "1 + q*log(1 + rest/r)", "",
+           {{"q", 0.02, 0.6, 0, "1"}, {"r_s", 0.02, 1, 0.1, "s"}}),
+      form("quadratic_drag", "speed_mps", "", "-c*v*abs(v)", {{"c", 0.3, 20, 0, "1/m"}}),
+      form("cubic_spring", "position_m", "", "-k*u^3", {{"k", 1, 3000, 0, "1/(m2 s2)"}}),
       form("force_in_waves", "position_m", "", "-m*sin(2*pi*u/n) - o*(cos(2*pi*u/n) - 1)",
-           {{"m", -1, 1, 0}, {"o", -1, 1, 0}, {"n_m", 0.03, 0.4, 0.1}}),
+           {{"m", -1, 1, 0, "m/s2"}, {"o", -1, 1, 0, "m/s2"}, {"n_m", 0.03, 0.4, 0.1, "m"}}),
   };
   return all;
 }

@@ -84,7 +84,7 @@ std::string posterior_text(const measurement::ModelSpec& model, const measuremen
   if (posterior.draws.empty()) return "";
   std::string text =
       fmt::format("# Joint draws of the numbers that the calibration tests leave open{}.\n",
-                  posterior.friction_scatter > 0
+                  measurement::draws_friction(model, posterior)
                       ? fmt::format("; friction is that of another test (it differs by {:.2g} % from test to test)",
                                     100 * posterior.friction_scatter)
                       : "");

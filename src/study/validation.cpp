@@ -51,6 +51,21 @@ void check_vertical(const Prepared& p) {
                 Exit::data);
 }
 
+}  // namespace
+
+std::string level_tests(const Prepared& p) {
+  std::vector<std::string> ids;
+  for (const Test& test : p.data.tests)
+    if (p.model.has("vertical_shaking") && !test.has_vertical()) ids.push_back(test.id);
+  return ids.empty() ? ""
+                     : fmt::format(
+                           "vertical_shaking acts on no vertical channel in {}: there the floor is taken to move "
+                           "sideways alone",
+                           listed(ids));
+}
+
+namespace {
+
 // Histories, peaks and outcomes are judged each by a loss of its own, and the sum of two of them means nothing.
 void check_one_kind(const Prepared& p) {
   constexpr const char* names[] = {"histories", "peaks alone", "outcomes alone"};
@@ -189,6 +204,21 @@ std::string content(const Prepared& p) {
   return all;
 }
 
+namespace {
+
+// As the study states them, in the order of the model's free numbers.
+std::vector<Interval> known_intervals(const Prepared& p) {
+  std::vector<Interval> known;
+  for (const Free& free : p.model.free) {
+    known.push_back({no_number, no_number});
+    for (const Calibrated& c : p.validation.calibrated)
+      if (c.name == free.name && c.interval.size() == 2) known.back() = {c.interval[0], c.interval[1]};
+  }
+  return known;
+}
+
+}  // namespace
+
 ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
   const Bench& bench = *p.bench;
   Values known = known_values(p.validation);
@@ -197,9 +227,10 @@ ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
     ModelFit fit{.model = p.model, .x = known, .score = 0};
     fit.score = mean_score(bench, tests_of(p.data, Role::calibration), fit.model, fit.x);
     evaluate(bench, {&fit}, jobs);
-    for (const Calibrated& c : p.validation.calibrated)
-      fit.intervals.push_back(c.interval.size() == 2 ? Interval{c.interval[0], c.interval[1]}
-                                                     : Interval{no_number, no_number});
+    fit.intervals = known_intervals(p);
+    // Outcomes are predicted by the mean over all numbers that the tests leave open, whoever fitted them.
+    if (outcomes_only(p.data) && !fit.x.empty() && !tests_of(p.data, Role::calibration).empty())
+      fit.resampled = fit_outcomes(bench, p.model, known, {}, jobs).resampled;
     return fit;
   }
   if (tests_of(p.data, Role::calibration).empty())

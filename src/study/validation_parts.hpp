@@ -25,6 +25,9 @@ std::unique_ptr<Prepared> prepare(const parallel::Communicator&, Validation, con
 // All that answers to it follow from, but the program: the study's text, and what was measured, bit by bit.
 std::string content(const Prepared&);
 
+// Tests without the vertical channel that an effect of the model acts on, in a sentence; empty: there are none.
+std::string level_tests(const Prepared&);
+
 // The model fitted to the calibration tests: where every number has its value and refit is false, at those values.
 measurement::ModelFit fitted(const Prepared&, bool refit, const Jobs&);
 

@@ -302,11 +302,29 @@ TEST(ReportsIntensity, IsPtaAtOneMu) {
   fragility::Result result = made_results();
   result.im_name = "report";
   result.im_unit = "1";
+  result.cell_im = {-0.2, 0.1, 0.5, 1.2};
+  result.cell_n = {4, 4, 4, 4};
   const fragility::Result pta = as_pta(result, 0.2);
   EXPECT_EQ(pta.im_name, "pta_g");
   EXPECT_NEAR(pta.im[1], 0.2 * 1.3, 1e-15);
   EXPECT_NEAR(pta.im_edge[5], 0.2 * 3, 1e-15);
-  EXPECT_THAT(pta.edps[0].functions, IsEmpty());
+  EXPECT_THAT(error_of([&] {
+                Request lognormal = request({"peak_slip_m:0.05"});
+                lognormal.form = Form::lognormal;
+                model("openquake", lognormal, pta);
+              }),
+              HasSubstr("one over another intensity is none over this"));
+  // A lognormal over the one is none over the other: its shares stay, at the intensities of the other.
+  const fragility::FragilityFunction &over_report = result.edps[0].functions[0], &over_pta = pta.edps[0].functions[0];
+  EXPECT_FALSE(over_pta.adequate);
+  EXPECT_TRUE(std::isnan(over_pta.dispersion));
+  ASSERT_EQ(over_pta.cell_im.size(), 4U);
+  ASSERT_EQ(over_pta.cell_share.size(), 4U);
+  for (std::size_t i = 0; i < over_pta.cell_im.size(); ++i) {
+    const double im = over_pta.cell_im[i] / 0.2 - 1;
+    EXPECT_NEAR(over_pta.cell_share[i], im > 0 ? phi(std::log(im / over_report.median) / over_report.dispersion) : 0,
+                1e-12);
+  }
 }
 
 }  // namespace

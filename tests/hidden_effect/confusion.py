@@ -244,7 +244,7 @@ def false_name(r):
 
 def by_fault(results):
     print("\nan effect is named that is not there (ambiguous with the right one counts too), by the laboratory's fault:")
-    for fault in [None] + FAULTS:
+    for fault in [None] + FAULTS + ["no_filter"]:
         of = [r for r in results if r.get("fault") == fault]
         none, some = [r for r in of if r["kind"] == "none"], [r for r in of if r["kind"] == "catalogue"]
         if of:

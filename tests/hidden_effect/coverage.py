@@ -98,7 +98,7 @@ def interval_of_share(held, count):
     """Wilson's, of 95 %."""
     z, p = 1.96, held / count
     middle, half = (p + z * z / (2 * count)), z * math.sqrt(p * (1 - p) / count + z * z / (4 * count * count))
-    return (middle - half) / (1 + z * z / count), (middle + half) / (1 + z * z / count)
+    return max(0.0, middle - half) / (1 + z * z / count), (middle + half) / (1 + z * z / count)
 
 
 def table(results):

@@ -80,8 +80,8 @@ void scatter_friction(MadeSet& set, KeyedRandom& random, double step_s) {
 
 const std::vector<std::string>& laboratory_faults() {
   static const std::vector<std::string> all{
-      "coloured_noise",   "drift",      "gain",          "wrong_width", "friction_scatter", "understated_noise",
-      "overstated_noise", "late_clock", "one_late_clock"};
+      "coloured_noise",   "drift",      "gain",           "wrong_width", "friction_scatter", "understated_noise",
+      "overstated_noise", "late_clock", "one_late_clock", "no_filter"};
   return all;
 }
 

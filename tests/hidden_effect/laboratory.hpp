@@ -10,6 +10,7 @@
 //   overstated_noise   and twice as large
 //   late_clock         responses that are written 10 to 25 ms too late, or too early
 //   one_late_clock     those of the first test only
+//   no_filter          a recorder that reads slower than the floor moves and filters nothing (below 200 Hz; above, no fault)
 #pragma once
 
 #include "hidden_effect/make_set.hpp"

@@ -12,8 +12,8 @@
 // tests the truth stays within 1.15 noise units, so that there is something a model can be asked for. A set that is
 // unpicked has floors as they come: a contact that just holds, or just does not, is where rivals come close.
 //
-// Floors have steps of 5 ms, or of the sensors where these read faster. Sensors that read slower filter nothing, and what the floor
-// does between their readings is lost.
+// Floors have steps of 5 ms, or of the sensors where these read faster. Recorders that read slower filter the floor's acceleration first,
+// as recorders do, and pass what is slower than 0.4 times their rate.
 #pragma once
 
 #include <cstdint>

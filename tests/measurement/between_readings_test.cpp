@@ -14,27 +14,43 @@
 namespace freestand::measurement {
 namespace {
 
-FloorMotion sine(double readings_a_cycle, double noise = 0) {
+constexpr double straight_s = 0.005, smooth_s = 0.01;
+
+FloorReadings sine(double step_s, double readings_a_cycle, double noise = 0) {
   test::KeyedRandom random(7, 7);
-  std::vector<double> a;
-  for (int i = 0; i < 1000; ++i) a.push_back(std::sin(2 * pi * i / readings_a_cycle) + noise * random.normal());
-  return piecewise_linear("sine", 0.01, a);
+  FloorReadings read{"sine", step_s, {}};
+  for (int i = 0; i < 1000; ++i)
+    read.horizontal_mps2.push_back(std::sin(2 * pi * i / readings_a_cycle) + noise * random.normal());
+  return read;
 }
 
 // Lines over h miss the middle of a sine by 1 - cos(w h) of it, over 2 h by 1 - cos(2 w h).
 TEST(BetweenReadings, AThirdOfASmoothFloorAndAllOfARoughOne) {
   for (const double readings : {40.0, 12.0, 8.0, 5.0}) {
     const double turn = 2 * pi / readings, ratio = (1 - std::cos(2 * turn)) / (1 - std::cos(turn));
-    EXPECT_NEAR(between_readings(sine(readings), 0).share, 1 / (std::max(ratio, 2.0) - 1), 5e-3) << readings;
+    EXPECT_NEAR(between_readings(sine(straight_s, readings), 0).share, 1 / (std::max(ratio, 2.0) - 1), 5e-3)
+        << readings;
   }
-  EXPECT_EQ(between_readings(sine(2.5), 0).share, 1);
+  EXPECT_EQ(between_readings(sine(straight_s, 2.5), 0).share, 1);
   // What noise adds is not what the floor does.
-  EXPECT_NEAR(between_readings(sine(20, 0.005), 0.005).share, between_readings(sine(20), 0).share, 0.03);
+  EXPECT_NEAR(between_readings(sine(straight_s, 20, 0.005), 0.005).share,
+              between_readings(sine(straight_s, 20), 0).share, 0.03);
+}
+
+// Cubics miss it by 1 - 9/8 cos(w h) + 1/8 cos(3 w h).
+TEST(BetweenReadings, AFifteenthWhereTheyAreJoinedByACurve) {
+  const auto missed = [](double turn) { return 1 - 9.0 / 8 * std::cos(turn) + 1.0 / 8 * std::cos(3 * turn); };
+  for (const double readings : {40.0, 20.0, 12.0, 9.0}) {
+    const double turn = 2 * pi / readings, ratio = missed(2 * turn) / missed(turn);
+    EXPECT_NEAR(between_readings(sine(smooth_s, readings), 0).share, 1 / (std::min(ratio, 16.0) - 1), 2e-3) << readings;
+  }
+  EXPECT_NEAR(between_readings(sine(smooth_s, 60), 0).share, 1.0 / 15, 1e-3);
+  EXPECT_EQ(between_readings(sine(smooth_s, 3.1), 0).share, 1);
 }
 
 TEST(BetweenReadings, EverySecondReadingIsLeftOut) {
-  const FloorMotion floor = sine(9);
-  const auto read = motion_samples(floor, floor.horizontal_mps2);
+  const FloorReadings floor = sine(straight_s, 9);
+  const auto& read = floor.horizontal_mps2;
   const auto thinned = between_readings(floor, 0).thinned;
   ASSERT_EQ(thinned.size(), 2U);
   for (const std::size_t first : {1U, 2U}) {
@@ -44,6 +60,15 @@ TEST(BetweenReadings, EverySecondReadingIsLeftOut) {
       EXPECT_NEAR(left[i], i % 2 == first % 2 ? (read[i - 1] + read[i + 1]) / 2 : read[i], 1e-12) << i;
   }
   EXPECT_TRUE(between_readings({}, 0).thinned.empty());
+}
+
+// A slow floor hardly misses them.
+TEST(BetweenReadings, TheCurveGoesOnWithoutThem) {
+  const FloorReadings floor = sine(smooth_s, 50);
+  for (const FloorMotion& thinned : between_readings(floor, 0).thinned)
+    for (std::size_t i = 10; i < 990; ++i)
+      EXPECT_NEAR(horizontal_acceleration({.motion = &thinned}, 0.01 * static_cast<double>(i)),
+                  floor.horizontal_mps2[i], 1e-4);
 }
 
 // What histories may stray by: the mean square of both thinnings, times the square of the share.

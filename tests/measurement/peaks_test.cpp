@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "measurement/fit/model_fit.hpp"
+#include "measurement/fit/posterior.hpp"
 #include "measurement/laboratory/plausible.hpp"
 #include "measurement/made_tests.hpp"
+#include "support/keyed_random.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -63,6 +65,32 @@ TEST(Peaks, StandingStillIsAHitAndSlidingAMiss) {
   EXPECT_EQ(error_at(bench, 4, 0.05).score, 9);  // the limit: 3^2
   EXPECT_EQ(error_at(bench, 4, 0.05).relative, 1);
   EXPECT_EQ(error_at(bench, 0, 1).score, 9);  // and the other way round
+}
+
+// A model that is right, a sensor that strays by 3 mm, and six slips of a few millimetres beside six large ones: another test lies beside the
+// model by what the large ones show, and not by what noise makes of the small ones.
+TEST(Peaks, NoiseIsNoDiscrepancy) {
+  constexpr double noise_m = 0.003;
+  for (std::uint64_t set = 0; set < 4; ++set) {
+    test::KeyedRandom random(5, set);
+    Dataset data;
+    data.noise.slip_m = noise_m;
+    for (const double peak : {2.2, 2.25, 2.3, 2.35, 2.4, 2.5, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0}) {
+      measurement::Test test;
+      test.id = std::string("t").append(std::to_string(data.tests.size() + 1));
+      test.motion = test::swings(peak, 0.6);
+      test.specimen = {0.8, 0.6, 100.0};
+      test.peaks.peak_slip_m = std::abs(respond(sliding(), test.shaking()).peak_slip_m + noise_m * random.normal());
+      data.tests.push_back(std::move(test));
+    }
+    const Bench bench(data, 0);
+    ModelSpec model = test::free_friction();
+    model.model = Model::slide;
+    ModelFit fit{.model = model, .x = {mu}};
+    const Posterior open = posterior(bench, fit, run_here);
+    EXPECT_LT(open.slip_scatter_ln, 0.06) << set;
+    EXPECT_NEAR(open.slip_bias_ln, 0, 0.06) << set;
+  }
 }
 
 // What counts as motion is of the calibration tests: another test held out changes no score.

@@ -80,6 +80,24 @@ TEST(Posterior, FrictionOfAnotherTestScattersAsThatOfTheTestsDoes) {
   EXPECT_NEAR(found, scatter, 0.015);
 }
 
+// Of two tests the scatter has one degree of freedom, and Student's t ends nowhere: what the number cannot be is not drawn.
+TEST(Posterior, FrictionIsDrawnWithinItsRange) {
+  Dataset data = test::with_noise(test::made_dataset(test::cabinet(), 0, {0.9, 1.1, 1, 1, 1}), 3);
+  data.tests.resize(2);
+  const Bench bench(data, 0);
+  const ModelSpec model = test::free_friction();
+  const Posterior p = posterior(bench, test::fitted(bench, model, {0.2}), run_here);
+  ASSERT_GT(p.friction_scatter, 0.05);
+  for (const Values& x : p.draws) {
+    EXPECT_GE(x[0], model.free[0].lower);
+    EXPECT_LE(x[0], model.free[0].upper);
+  }
+  EXPECT_TRUE(draws_friction(model, p));
+  ModelSpec given = model;
+  given.free.clear();
+  EXPECT_FALSE(draws_friction(given, p));
+}
+
 // The fit knows one friction of all tests, and so lies many of its standard errors from the numbers that are likely where each has its own: draws
 // begin where these are. (From the fit they never met them: none counted, and the ranges were all that was left.)
 TEST(Posterior, NumbersBesideFrictionThatScattersAreKnown) {

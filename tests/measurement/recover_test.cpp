@@ -41,6 +41,26 @@ TEST(Recover, ConstantFrictionIsConstant) {
   for (std::size_t b = 0; b < direction.mu.size(); ++b) EXPECT_NEAR(direction.mu[b], 0.15, 0.005);
 }
 
+// Over sets whose friction is constant: bands of 95 % hold it in about so many bins and are no wider than that takes, and what its
+// bins explain is what chance does.
+TEST(Recover, BandsAndSharesAreThoseOfTheNoise) {
+  double bins = 0, held = 0, square = 0, explained = 0, by_chance = 0;
+  for (std::uint64_t set = 0; set < 12; ++set) {
+    const Recovered r = recovered(test::with_noise(test::made_dataset(cabinet(0.15), 0), set));
+    for (const char* variable : {"speed_mps", "path_m", "time_s"}) {
+      const RecoveredTable& t = over(r, variable);
+      explained += t.share_explained, by_chance += t.share_by_chance;
+      for (std::size_t b = 0; b < t.mu.size(); ++b, ++bins) {
+        held += t.mu_lower[b] <= 0.15 && 0.15 <= t.mu_upper[b];
+        square += std::pow(2 * 1.96 * (t.mu[b] - 0.15) / (t.mu_upper[b] - t.mu_lower[b]), 2);
+      }
+    }
+  }
+  EXPECT_GT(held / bins, 0.91);
+  EXPECT_NEAR(square / bins, 1, 0.3);
+  EXPECT_NEAR(explained, by_chance, 0.3 * by_chance);
+}
+
 // mu (1 + d sigma): the two directions are parted by 2 mu d.
 TEST(Recover, DirectionalFrictionShowsOverTheDirection) {
   const auto* law = effects::find("directional_friction");

@@ -44,6 +44,32 @@ TEST_F(Record, CsmipV2WithAHoleOrAnotherStepIsRefused) {
                     12, "another step or unit");
 }
 
+// A count that is too small: what it leaves of the channel is no channel.
+TEST_F(Record, CsmipV2WithMoreValuesThanItSaysIsRefused) {
+  std::string text = csmip_channel(1, "H1", "  1.000000  2.000000  3.000000\n  4.000000  5.000000\n");
+  expect_data_error(write("more.V2", text), 6, "more values here (the header says 3 in all)");
+}
+
+// Channels of other lengths: the shorter one ends at rest.
+TEST_F(Record, AShorterVerticalChannelEndsAtRest) {
+  std::string up = csmip_channel(2, "UP", "  7.000000  8.000000\n");
+  up.replace(up.find("    3 points of accel"), 5, "    2");
+  const FloorMotion both = read_record(write("x.V2", csmip_channel(1, "H1", "  1.000000  2.000000  3.000000\n") + up));
+  EXPECT_THAT(samples(both, Channel::vertical), testing::Pointwise(testing::DoubleNear(1e-12), {0.07, 0.08, 0.0}));
+}
+
+// What is told of a record's direction is that of the channel which is read.
+TEST_F(Record, TheDirectionIsThatOfTheChannel) {
+  const std::string three = "  1.000000  2.000000  3.000000\n";
+  const auto path = write("x.V2", csmip_channel(1, "H1", three) + csmip_channel(2, "UP", three));
+  EXPECT_EQ(direction_of(path).vertical, "");
+  EXPECT_EQ(direction_of(path, {.channel = "UP"}).vertical, "channel UP is");
+  EXPECT_FALSE(direction_of(path, {.channel = "UP"}).down);
+  const auto down = write("CPEDWN.AT2", at2_head + "NPTS= 7, DT= .0050 SEC\n" + seven_text);
+  EXPECT_TRUE(direction_of(down).down);
+  EXPECT_NE(direction_of(down).vertical, "");
+}
+
 std::string cosmos_channel(const std::string& name, const std::string& units, const std::string& entry_62) {
   std::string reals;
   for (int i = 1; i <= 100; ++i) {

@@ -98,6 +98,22 @@ TEST_F(Record, At2WithABadNumberNamesFileLineAndNumber) {
   expect_data_error(write("i.AT2", head + " .1 1.5-\n"), 6, "\"-\"");
 }
 
+// However the header writes it; g where it says nothing and the user does not either.
+TEST_F(Record, At2IsInTheUnitOfItsHeader) {
+  const auto at2 = [&](const std::string& line) {
+    return write("x.AT2", "a\nb\n" + line + "\nNPTS= 7, DT= .0050 SEC\n" + seven_text);
+  };
+  for (const char* line : {"ACCELERATION TIME HISTORY, UNITS: M/S2", "ACCELERATION TIME SERIES IN M/S2",
+                           "Acceleration (m/s2)", "ACCELERATION TIME SERIES IN UNITS OF M/S2"}) {
+    SCOPED_TRACE(line);
+    expect_samples(read_record(at2(line)), 0.005, seven, 1);
+    expect_usage_error(at2(line), "unit g contradicts the file (it says m/s2)", {.unit = "g"});
+  }
+  expect_samples(read_record(at2("ACCELERATION TIME HISTORY")), 0.005, seven, g);
+  expect_samples(read_record(at2("ACCELERATION TIME HISTORY"), {.unit = "m/s2"}), 0.005, seven, 1);
+  expect_samples(read_record(at2("ACCELERATION OF STATION G IN THE WEST (G)")), 0.005, seven, g);
+}
+
 TEST_F(Record, At2WithABrokenHeaderIsRefused) {
   expect_data_error(write("a.AT2", at2_head + "NPTS= x7, DT= .005\n" + seven_text), 4, "cannot read the count \"x7\"");
   expect_data_error(write("b.AT2", at2_head + "NPTS= 7, DT= 0 SEC\n" + seven_text), 0, "time step 0 s is of no use");

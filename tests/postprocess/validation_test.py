@@ -327,6 +327,17 @@ class Drawn(Temporary):
         self.assertRegex(picture.finding, r"With static friction P\(Δ.>.0\.5\) falls by up to 0\.50")
         self.assertEqual(picture.figure.axes[-1].get_title(loc="left").strip(), "P(overturned)")
 
+    def test_one_value_of_the_reports_intensity_is_two_shakings_where_friction_differs(self):
+        before, after = (support.sweep_copy(self.folder / name) for name in ("base", "with"))
+        for folder, mu in ((before, 0.113), (after, 0.151)):
+            with h5py.File(folder / "fragility.h5", "a") as root:
+                root.attrs["im"] = "report"
+                root.attrs["study"] = f"friction: {{mu: {mu}}}\nblock: {{width_m: 0.6}}\n"
+        folders = [make.comparison(self.folder / "one"), before, after]
+        self.assertNotIn("before_after", self.draw(*folders, about="before_after"))
+        self.assertEqual(support.run("report", *folders, "-o", self.folder / "page.html").returncode, 0)
+        self.assertIn("one value is two shakings", Page((self.folder / "page.html").read_text()).text)
+
     def test_sweeps_that_cannot_be_compared_say_why(self):
         other = support.sweep_copy(self.folder / "other")
         with h5py.File(other / "fragility.h5", "a") as root:

@@ -145,6 +145,7 @@ TEST(Doubts, OtherChannelsOfRecords) {
   EXPECT_THAT(said("", {}, gravity), ElementsAre(HasSubstr("the second channel of some.csv has an offset of 9.")));
   EXPECT_THAT(said(shaken, nothing, {}),
               ElementsAre("the vertical channel of some.csv is zero throughout: is it the right one?"));
+  EXPECT_THAT(said(shaken, {}, {}), ElementsAre(HasSubstr("no vertical channel is there of some.csv")));
   EXPECT_THAT(said("", {}, strong),
               ElementsAre(HasSubstr("the second channel of some.csv is 20 times as strong as the first one")));
 }

@@ -2,6 +2,7 @@
 import json
 
 import numpy as np
+import yaml
 
 from .. import style, validation, words
 from ..model import chosen_capacities
@@ -15,7 +16,7 @@ CAPTION = "The same sweep with the model before and after: probability that {wha
 def pictures(results):
     if isinstance(results, Validation) and len(results.sweeps) > 1:
         before, after = results.sweeps[0], results.sweeps[-1]
-        if before.im == after.im and (_common(before, after) or _both_overturn(before, after)):
+        if before.im == after.im and _same_shaking(before, after) and (_common(before, after) or _both_overturn(before, after)):
             yield _picture(before, after)
 
 
@@ -26,7 +27,23 @@ def mismatch(results):
     before, after = results.sweeps[0], results.sweeps[-1]
     if before.im != after.im:
         return f"The sweeps are not drawn together: one is over {before.im_symbol}, the other over {after.im_symbol}."
+    if not _same_shaking(before, after):
+        return (f"The sweeps are not drawn together: {before.im_symbol} holds {OF_THE_MODEL[str(before.im)]} of the model, which is another one after, so that "
+                "one value is two shakings. Sweep both over pga_g, pta_g or sa_g (im: pga_g).")
     return "" if _common(before, after) or _both_overturn(before, after) else "The sweeps share no demand parameter and capacity."
+
+
+# Intensities that hold numbers of the model, by the keys of a study that give these: PTA/(mu g) - 1 is another shaking where mu is another one.
+OF_THE_MODEL = {"report": "friction", "pga_over_g_tan_alpha": "block", "p_pgv_over_g_tan_alpha": "block"}
+
+
+def _same_shaking(before, after):
+    key = OF_THE_MODEL.get(str(before.im))
+    if not key:
+        return True
+    given = [yaml.safe_load(str(sweep.attributes.get("study", ""))) or {} for sweep in (before, after)]
+    one, other = (study.get(key) for study in given)
+    return one == other and "posterior" not in str(one)
 
 
 def _common(before, after):

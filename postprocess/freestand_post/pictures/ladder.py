@@ -9,7 +9,8 @@ from . import Picture
 
 order = 100
 CAPTION = ("Each step is one more effect in the model. Calibration: the tests its numbers were fitted to; held out: tests that no fit "
-           "has seen; dashed: what the noise of sensors and floor motion alone would make of the calibration tests.")
+           "has seen; dashed: what {floor} would make of the calibration tests.")
+FLOOR = {"Brier": "chance alone, with the probabilities that are predicted,"}
 LINES = (("error_calibration", "calibration", style.BLUE, "-o"), ("error_holdout", "held out", style.VERMILION, "-s"),
          ("noise_floor", "noise floor", style.MUTED, "--"))
 
@@ -35,7 +36,7 @@ def _picture(results, steps):
     style.headline(fig, finding, f"Root mean square error in {results.unit} of each model of the ladder."
                    if results.unit == "noise units" else f"Error ({results.unit}) of each model of the ladder.")
     _labels(ax, values, len(steps) - 1)
-    return Picture("ladder", fig, finding, CAPTION, "ladder")
+    return Picture("ladder", fig, finding, CAPTION.format(floor=FLOOR.get(results.unit, "the noise of sensors and floor motion alone")), "ladder")
 
 
 def _labels(ax, values, last):

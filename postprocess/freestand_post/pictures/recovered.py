@@ -10,12 +10,12 @@ from . import Picture
 
 order = 120
 COLUMNS, SHOWN = 3, 6
-TELLS = 0.05  # share of the scatter that a variable must explain to be worth a panel beyond the first three
+TELLS = 0.05  # share of the scatter, beyond what chance explains, that makes a variable worth a panel beyond the first three
 NAMED = ("missing", "ambiguous")  # verdicts that name an effect, so that there is a law to draw
 CAPTION = ("Recovered without any effect model: the friction coefficient that balances the measured acceleration while the block slips, or, where that "
            "tells more, as of a spring, which cancels in friction there and back, the force that is missing beside the base's friction, over the mass. "
            "The first and last 0.06 s of each slip are left out, and with them its low speeds. Points: mean of a bin; band: 95 % interval of that mean; dashed: the constant of the base model; line: the law of the "
-           "effect that the verdict names, or that is proposed, at the same instants. Percentages: share of the scatter that the variable explains. First the variable of the law, then the most telling.")
+           "effect that the verdict names, or that is proposed, at the same instants. Percentages: share of the scatter that the variable explains, and what bands as wide would explain by chance. First the variable of the law, then the most telling.")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -35,12 +35,21 @@ FORCE = Quantity("force_mps2", "force_lower_mps2", "force_upper_mps2", "law_forc
 
 
 def _quantity(table):
-    tells_more = table.share_of_force_explained >= TELLS and not table.share_explained >= table.share_of_force_explained
+    beyond = table.share_of_force_explained - table.share_of_force_by_chance
+    tells_more = beyond >= TELLS and not table.share_explained - table.share_by_chance >= beyond
     return FORCE if tells_more and table.variable in ("position_m", "time_s") else FRICTION
 
 
 def _share(table):
     return table.share_of_force_explained if _quantity(table) is FORCE else table.share_explained
+
+
+def _chance(table):
+    return table.share_of_force_by_chance if _quantity(table) is FORCE else table.share_by_chance
+
+
+def _beyond_chance(table):
+    return _share(table) - _chance(table)
 
 
 def pictures(results):
@@ -53,8 +62,8 @@ def pictures(results):
 
 def _telling(diagnosis):
     known = [table for table in diagnosis.recovered if np.isfinite(table.columns["mu"]).sum() > 1]
-    known.sort(key=lambda table: (not _follows(diagnosis, table), -np.nan_to_num(_share(table))))
-    telling = [table for table in known if _share(table) >= TELLS or _follows(diagnosis, table)]
+    known.sort(key=lambda table: (not _follows(diagnosis, table), -np.nan_to_num(_beyond_chance(table))))
+    telling = [table for table in known if _beyond_chance(table) >= TELLS or _follows(diagnosis, table)]
     return (telling if len(telling) > 4 else telling[:3] if len(telling) > 2 else known[:3])[:SHOWN]
 
 
@@ -123,9 +132,9 @@ def _panel(ax, table, law, base):
         ax.set_xlabel(label)
         ax.locator_params(axis="x", nbins=5)
     share = _share(table)
-    ax.set_title(f"{words.capitalised(validation.short_variable(table))}: {words.percent(max(share, 0.0))}" if np.isfinite(share) else
-                 words.capitalised(validation.short_variable(table)), size=8.8, weight="bold",
-                 color=style.INK if share >= TELLS else style.MUTED, pad=4)
+    explained = f": {words.percent(max(share, 0.0))} (chance {words.percent(_chance(table))})" if np.isfinite(share) else ""
+    ax.set_title(words.capitalised(validation.short_variable(table)) + explained, size=8.8, weight="bold",
+                 color=style.INK if _beyond_chance(table) >= TELLS else style.MUTED, pad=4)
     style.grid(ax)
 
 
@@ -142,7 +151,7 @@ def _finding(diagnosis, tables):
     top = tables[0]
     share, quantity = _share(top), _quantity(top)
     follows = _follows(diagnosis, top)
-    if not share >= TELLS and not follows:
+    if not _beyond_chance(top) >= TELLS and not follows:
         return "While it slips, the recovered friction follows none of these: what is missing, if anything, acts elsewhere"
     mu, x = top.columns[quantity.mean], top.centre
     good = np.flatnonzero(np.isfinite(mu))

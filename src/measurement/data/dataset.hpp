@@ -49,10 +49,12 @@ struct Test {
   Dimensions specimen;  // the data set's, with the test's own over it
   Start start;          // how the specimen was when the floor began to move
   FloorMotion motion;   // as measured; or a pulse of unit peak acceleration and unit period
-  double scale = 1;     // on the motion
-  double stretch = 1;   // of time: the period of a pulse
-  std::string pulse;    // its name; empty: a measured motion
-  double dt_s = 0;      // of the histories
+  int pieces_a_reading =
+      1;               // straight ones of the motion, from one reading of the floor to the next (floor_readings.hpp)
+  double scale = 1;    // on the motion
+  double stretch = 1;  // of time: the period of a pulse
+  std::string pulse;   // its name; empty: a measured motion
+  double dt_s = 0;     // of the histories
 
   // Histories from time 0 on, in steps of dt_s, equally long; empty: not measured. slip_m: horizontal displacement of
   // the midpoint of the base relative to the floor [m]; rotation positive clockwise [rad]; block_acceleration: absolute,

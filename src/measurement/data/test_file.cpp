@@ -198,8 +198,8 @@ void read_test_file(const std::filesystem::path& path, double dt_s, Test& test) 
                     "sampling_dt_s out where tests differ",
                     step, dt_s));
   const auto* vertical = columns.find("floor_vertical_acceleration_mps2");
-  test.motion = piecewise_linear(path.string(), step, columns.needed("floor_acceleration_mps2"),
-                                 vertical ? *vertical : std::vector<double>{});
+  read_floor(test, {path.string(), step, columns.needed("floor_acceleration_mps2"),
+                    vertical ? *vertical : std::vector<double>{}});
   test.dt_s = step;
   test.source = path.string();
   if (const auto* slip = columns.find("slip_m")) test.slip_m = *slip;

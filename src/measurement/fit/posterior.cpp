@@ -34,7 +34,8 @@ void leave_the_mean(const ModelFit& fit, Posterior& out) {
     const double friction = std::exp(out.friction_scatter * student(random::standard_normal(39, s, 0)));
     const double aside = placement_scatter(fit.model, x) * random::standard_normal(39, s, 1);
     for (std::size_t k = 0; k < x.size(); ++k) {
-      if (is_friction(fit.model.free[k])) x[k] *= friction;
+      const Free& free = fit.model.free[k];
+      if (is_friction(free)) x[k] = std::clamp(x[k] * friction, free.lower, free.upper);
       if (static_cast<int>(k) == placed) x[k] = placed_at(fit.model, std::log(x[k]) + aside);
     }
   }
@@ -108,25 +109,57 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
   return out;
 }
 
-// Of the tests that slipped, measured and computed. The mean is known to s/sqrt(n): another test lies about it by s sqrt(1 + 1/n).
+// By how much slips lie beside the model's, apart from the sensor's noise, which is most of what small ones show.
+struct Beside {
+  std::vector<double> ln, noise2;  // measured over computed; variance of that by the noise
+
+  double weight(std::size_t i, double scatter2) const { return 1 / (scatter2 + noise2[i]); }
+  double weights(double scatter2) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < ln.size(); ++i) sum += weight(i, scatter2);
+    return sum;
+  }
+  double mean(double scatter2) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < ln.size(); ++i) sum += weight(i, scatter2) * ln[i];
+    return sum / weights(scatter2);
+  }
+  double chi_square(double scatter2) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < ln.size(); ++i) sum += weight(i, scatter2) * std::pow(ln[i] - mean(scatter2), 2);
+    return sum;
+  }
+  // At which chi square is its degrees of freedom (Paule & Mandel, J. Res. NBS 87, 1982); 0 where the noise explains all.
+  double scatter2(double freedom) const {
+    double low = 0, high = 1e-12;
+    if (chi_square(high) <= freedom) return 0;
+    while (chi_square(high) > freedom) high *= 2;
+    for (int halved = 0; halved < 60; ++halved)
+      (chi_square(0.5 * (low + high)) > freedom ? low : high) = 0.5 * (low + high);
+    return high;
+  }
+};
+
+// Of the tests that slipped, measured and computed. Another test lies about the mean by the scatter, and by what is not known of the mean.
 void measure_discrepancy(const Bench& bench, const ModelFit& fit, const std::vector<std::size_t>& tests,
                          Posterior& out) {
-  std::vector<double> ln;
+  Beside beside;
   for (const std::size_t i : tests) {
     const double measured = std::abs(bench.test(i).peaks.peak_slip_m.value_or(0));
     const Prediction model = predict(fit.model, bench.test(i), fit.x);
     const double least = least_motion(bench, Channel::slip);
     if (measured > least && !model.failed() && model.response.peak_slip_m > least &&
-        peaks_compare(bench.test(i), model.response))
-      ln.push_back(std::log(measured / model.response.peak_slip_m));
+        peaks_compare(bench.test(i), model.response)) {
+      beside.ln.push_back(std::log(measured / model.response.peak_slip_m));
+      beside.noise2.push_back(std::pow(bench.noise(Channel::slip) / model.response.peak_slip_m, 2));
+    }
   }
-  const double n = static_cast<double>(ln.size()),
-               freedom = n - static_cast<double>(std::max<std::size_t>(fit.x.size(), 1));
+  const double freedom =
+      static_cast<double>(beside.ln.size()) - static_cast<double>(std::max<std::size_t>(fit.x.size(), 1));
   if (freedom < 1) return;
-  out.slip_bias_ln = std::accumulate(ln.begin(), ln.end(), 0.0) / n;
-  double square = 0;
-  for (const double l : ln) square += std::pow(l - out.slip_bias_ln, 2);
-  out.slip_scatter_ln = std::sqrt(square / freedom * (1 + 1 / n));
+  const double scatter2 = beside.scatter2(freedom);
+  out.slip_bias_ln = beside.mean(scatter2);
+  out.slip_scatter_ln = std::sqrt(scatter2 + 1 / beside.weights(scatter2));
 }
 
 Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
@@ -195,6 +228,10 @@ bool take_intervals(const Posterior& open, ModelFit& fit) {
   for (fit.intervals.clear(); fit.intervals.size() < fit.x.size();)
     fit.intervals.push_back(interval_of(open, fit, fit.intervals.size(), 0.95));
   return true;
+}
+
+bool draws_friction(const ModelSpec& model, const Posterior& open) {
+  return open.friction_scatter > 0 && std::any_of(model.free.begin(), model.free.end(), is_friction);
 }
 
 Posterior posterior(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {

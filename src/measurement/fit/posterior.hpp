@@ -12,9 +12,10 @@
 //
 // Friction may differ from test to test: the standard deviation tau of its logarithm is estimated by restricted likelihood (each test
 // has a direction f_i = d history/d ln mu beside the floor's replays in C_i), and kept where its absence has a p value below 5 %.
-// A draw is then the friction of another test: the mean's, times exp(tau z).
+// A draw is then the friction of another test: the mean's, times exp(tau t) with Student's t, within the range of the number.
 //
 // Peaks: G is the sum of the tests' scores, s^2 = G(fit)/(n - p), nu = n - p, of the n tests whose peaks tell by how much the model is off.
+// How far the slips of another test lie beside the model's is what the sensor's noise leaves of the scatter of ln(measured/model).
 // Outcomes: the fits to resampled tests.
 //
 // Drawn by importance: points from a Student's density with five degrees of freedom, and one in ten from anywhere; the density is
@@ -56,6 +57,9 @@ bool take_intervals(const Posterior&, ModelFit&);
 inline const Values& spread_row(const std::vector<Values>& rows, std::size_t k, std::size_t count) {
   return rows[(2 * k + 1) * rows.size() / (2 * count)];
 }
+
+// Friction that differs from test to test is drawn where it is a number of the fit.
+bool draws_friction(const ModelSpec&, const Posterior&);
 
 Posterior posterior(const Bench&, const ModelFit&, const Jobs&);
 

@@ -8,6 +8,7 @@
 
 #include "base/shown_text.hpp"
 #include "base/units.hpp"
+#include "measurement/data/floor_readings.hpp"
 #include "measurement/data/ground.hpp"
 #include "measurement/data/smooth.hpp"
 #include "measurement/laboratory/plausible_channels.hpp"
@@ -25,10 +26,8 @@ constexpr double strongest_floor_g = 10, weakest_floor_g = 0.02;
 constexpr double strangely_fast = 1.5, impossibly_fast = 3;  // slip speed, in the range of the floor's velocity
 
 std::vector<double> floor_samples(const Test& test) {
-  const auto stride = static_cast<std::size_t>(test.motion.degree) + 1;
-  std::vector<double> samples;
-  for (std::size_t i = 0; i < test.motion.horizontal_mps2.size(); i += stride)
-    samples.push_back(test.scale * test.motion.horizontal_mps2[i]);
+  std::vector<double> samples = readings_of(test).horizontal_mps2;
+  for (double& a : samples) a *= test.scale;
   return samples;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/data/floor_readings.hpp"
 #include "measurement/data/ground.hpp"
 #include "measurement/data/smooth.hpp"
 #include "measurement/laboratory/plausible.hpp"
@@ -111,13 +112,12 @@ std::optional<Dataset> without_floor_offsets(const Dataset& data) {
   bool any = false;
   for (Test& test : other.tests) {
     if (!test.pulse.empty() || test.motion.degree != 1) continue;
-    std::vector<double> floor = motion_samples(test.motion, test.motion.horizontal_mps2);
-    const double offset = floor_offset_mps2(floor);
+    FloorReadings floor = readings_of(test);
+    const double offset = floor_offset_mps2(floor.horizontal_mps2);
     if (offset == 0) continue;
     any = true;
-    for (double& a : floor) a -= offset;
-    test.motion = piecewise_linear(test.motion.name, test.motion.knot_s[1], floor,
-                                   motion_samples(test.motion, test.motion.vertical_mps2));
+    for (double& a : floor.horizontal_mps2) a -= offset;
+    read_floor(test, floor);
   }
   return any ? std::optional(other) : std::nullopt;
 }

@@ -3,39 +3,51 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measurement/data/ground.hpp"
-
 namespace freestand::measurement {
 namespace {
 
-std::vector<double> thinned(std::vector<double> readings, std::size_t first) {
-  for (std::size_t i = first; i + 1 < readings.size(); i += 2)
-    if (i > 0) readings[i] = 0.5 * (readings[i - 1] + readings[i + 1]);
-  return readings;
+// Every second reading, from the first on, from what the others say; the first and the last one stay.
+std::vector<double> thinned(const std::vector<double>& readings, std::size_t first, bool smooth) {
+  std::vector<double> places, values;
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    if (i < first || (i - first) % 2 != 0 || i + 1 == readings.size())
+      places.push_back(static_cast<double>(i)), values.push_back(readings[i]);
+  return readings.empty() ? readings : curve_through(places, values, smooth, 1, readings.size());
 }
 
-// Mean square by which lines between readings that are so many steps off miss those in the middle, without what noise adds.
-double missed(const std::vector<double>& readings, std::size_t steps, double noise) {
+// The middle between readings at -3, -1, 1 and 3, by the line or the cubic through them.
+struct Middle {
+  double inner, outer;
+  double from_noise() const { return 1 + 2 * (inner * inner + outer * outer); }  // of 1 on each reading
+};
+
+constexpr Middle of_line{.inner = 0.5, .outer = 0}, of_cubic{.inner = 9.0 / 16, .outer = -1.0 / 16};
+
+// Mean square by which the middles between readings that are two times so many steps apart are missed, without what noise adds.
+double missed(const std::vector<double>& readings, std::size_t steps, bool smooth, double noise) {
+  const Middle middle = smooth ? of_cubic : of_line;
   double sum = 0, count = 0;
-  for (std::size_t i = steps; i + steps < readings.size(); ++i, ++count)
-    sum += std::pow(readings[i] - 0.5 * (readings[i - steps] + readings[i + steps]), 2);
-  return count > 0 ? std::max(0.0, sum / count - 1.5 * noise * noise) : 0;
+  for (std::size_t i = 3 * steps; i + 3 * steps < readings.size(); ++i, ++count)
+    sum += std::pow(readings[i] - middle.inner * (readings[i - steps] + readings[i + steps]) -
+                        middle.outer * (readings[i - 3 * steps] + readings[i + 3 * steps]),
+                    2);
+  return count > 0 ? std::max(0.0, sum / count - middle.from_noise() * noise * noise) : 0;
 }
 
 }  // namespace
 
-BetweenReadings between_readings(const FloorMotion& motion, double noise_mps2) {
-  if (motion.degree != 1 || motion.segments() < 4) return {};
-  const auto horizontal = motion_samples(motion, motion.horizontal_mps2),
-             vertical = motion_samples(motion, motion.vertical_mps2);
+BetweenReadings between_readings(const FloorReadings& read, double noise_mps2) {
+  if (read.horizontal_mps2.size() < 5) return {};
+  const bool smooth = read.smooth();
   BetweenReadings found;
   for (const std::size_t first : {1U, 2U})
-    found.thinned.push_back(piecewise_linear(motion.name, motion.knot_s[1] - motion.knot_s[0],
-                                             thinned(horizontal, first), thinned(vertical, first)));
-  // What steps of 2 h miss over what h misses, as errors of histories go: 4 where the floor is smooth.
-  const double by_one = missed(horizontal, 1, noise_mps2), by_two = missed(horizontal, 2, noise_mps2);
-  const double ratio = by_one > 0 ? std::sqrt(by_two / by_one) : 4;
-  found.share = 1 / (std::clamp(ratio, 2.0, 4.0) - 1);
+    found.thinned.push_back(motion_through({read.name, read.step_s, thinned(read.horizontal_mps2, first, smooth),
+                                            thinned(read.vertical_mps2, first, smooth)}));
+  // What steps of 2 h miss over what h misses, as errors of histories go.
+  const double by_one = missed(read.horizontal_mps2, 1, smooth, noise_mps2),
+               by_two = missed(read.horizontal_mps2, 2, smooth, noise_mps2);
+  const double of_smooth = smooth ? 16 : 4, ratio = by_one > 0 ? std::sqrt(by_two / by_one) : of_smooth;
+  found.share = 1 / (std::clamp(ratio, 2.0, of_smooth) - 1);
   return found;
 }
 

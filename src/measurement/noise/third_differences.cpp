@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measurement/data/ground.hpp"
+#include "measurement/data/floor_readings.hpp"
 #include "measurement/data/resolution.hpp"
 
 namespace freestand::measurement {
@@ -30,7 +30,7 @@ double sensor_noise(const std::vector<double>& signal) {
 double floor_noise_mps2(const Dataset& data, const Test& test) {
   if (!test.has_history() || test.motion.degree != 1) return 0;
   const double given = data.noise.floor_acceleration_mps2;
-  return given > 0 ? given : sensor_noise(motion_samples(test.motion, test.motion.horizontal_mps2));
+  return given > 0 ? given : sensor_noise(readings_of(test).horizontal_mps2);
 }
 
 }  // namespace freestand::measurement

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/random.hpp"
-#include "measurement/data/ground.hpp"
+#include "measurement/data/floor_readings.hpp"
 #include "measurement/data/resolution.hpp"
 #include "measurement/noise/quiet.hpp"
 #include "measurement/noise/third_differences.hpp"
@@ -12,13 +12,12 @@
 namespace freestand::measurement {
 namespace {
 
-FloorMotion with_noise(const FloorMotion& motion, double horizontal, double vertical, std::uint64_t replay,
+FloorMotion with_noise(FloorReadings floor, double horizontal, double vertical, std::uint64_t replay,
                        std::uint64_t stream) {
-  std::vector<double> a = motion_samples(motion, motion.horizontal_mps2),
-                      v = motion_samples(motion, motion.vertical_mps2);
+  auto &a = floor.horizontal_mps2, &v = floor.vertical_mps2;
   for (std::size_t i = 0; i < a.size(); ++i) a[i] += horizontal * random::standard_normal(1 + replay, i, stream);
   for (std::size_t i = 0; i < v.size(); ++i) v[i] += vertical * random::standard_normal(1 + replay, i, ~stream);
-  return piecewise_linear(motion.name, motion.knot_s[1] - motion.knot_s[0], a, v);
+  return motion_through(floor);
 }
 
 // The motion at so many steps from its beginning: between two points by the cubic through the values and rates of both,
@@ -175,14 +174,15 @@ Bench::Bench(const Dataset& data, int replays) : data_(data), replays_(data.test
     const Test& test = data.tests[i];
     reach_.push_back(reach_of(test));
     const bool recorded = test.has_history() && test.motion.degree == 1;
+    const FloorReadings floor = recorded ? readings_of(test) : FloorReadings{};
     const double horizontal = measurement::floor_noise_mps2(data, test);
-    const double vertical = recorded ? sensor_noise(motion_samples(test.motion, test.motion.vertical_mps2)) : 0;
+    const double vertical = sensor_noise(floor.vertical_mps2);
     floor_noise_mps2_.push_back(horizontal);
-    between_readings_.push_back(recorded && replays > 0 ? measurement::between_readings(test.motion, horizontal)
+    between_readings_.push_back(recorded && replays > 0 ? measurement::between_readings(floor, horizontal)
                                                         : BetweenReadings{});
     const std::uint64_t stream = random::stable_hash(test.id);
     for (int k = 0; recorded && k < replays; ++k)
-      replays_[i].push_back(with_noise(test.motion, horizontal, vertical, static_cast<std::uint64_t>(k), stream));
+      replays_[i].push_back(with_noise(floor, horizontal, vertical, static_cast<std::uint64_t>(k), stream));
   }
 }
 

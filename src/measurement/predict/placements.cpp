@@ -10,8 +10,7 @@
 namespace freestand::measurement {
 
 double placed_at(const ModelSpec& model, double place) {
-  constexpr double steepest = 1.5;  // rad; a slenderness lies below pi/2
-  return model.slenderness && model.size ? std::min(std::exp(place), steepest) : std::exp(place);
+  return model.slenderness && model.size ? std::min(std::exp(place), steepest_rad) : std::exp(place);
 }
 
 namespace {

@@ -27,6 +27,7 @@ struct Places {
 // Middle of ln(slenderness) or ln(width); 0 where every test has its own width, and places are relative to that.
 double placement_middle(const ModelSpec&, std::span<const double> x);
 double placement_scatter(const ModelSpec&, std::span<const double> x);
+inline constexpr double steepest_rad = 1.5;  // a slenderness lies below pi/2
 // The slenderness or the width there.
 double placed_at(const ModelSpec&, double place);
 // The free number that moves the middle; -1: none.

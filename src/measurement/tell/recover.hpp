@@ -13,7 +13,7 @@
 namespace freestand::measurement {
 
 // Mean over the samples of a bin, each for as long as it stands, with their standard deviation and a band of 95 % for the
-// mean; neighbouring samples are not independent (they share a window), which the band allows for.
+// mean: what the sensors' noise makes of it, reading by reading, and what the scatter beyond the noise does, a slip for a unit.
 struct RecoveredTable {
   std::string variable, unit;  // speed_mps, path_m, direction, position_m, normal_g, time_s
   std::vector<double> edge, centre, mu, mu_deviation, mu_lower, mu_upper, force_mps2, force_lower_mps2,
@@ -22,6 +22,8 @@ struct RecoveredTable {
   double share_explained = 0;  // of the variance of mu_eff among its samples, by the bins
   double share_of_force_explained =
       0;  // of that of the force: one that goes by the position cancels in mu_eff, there and back
+  double share_by_chance = 0,
+         share_of_force_by_chance = 0;  // of the same, where the means of the bins differ by their bands alone
   // The friction that the model `shown` gives at the same samples, mean of each bin (nan: it is more than the motion of
   // the base tells); and whether it changes with this variable while the others stay.
   std::vector<double> law, law_force_mps2;  // as friction, and as the force that the base lacks

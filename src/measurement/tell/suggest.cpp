@@ -45,7 +45,7 @@ Test planned(const Bench& bench, const Trial& trial) {
     floor.push_back(t < pulse.duration ? peak * pulse.at(t).acceleration : 0);
     vertical.push_back(fast < pulse.duration ? peak * trial.vertical_share * pulse.at(fast).acceleration : 0);
   }
-  test.motion = piecewise_linear("planned", dt, floor, vertical);
+  read_floor(test, {"planned", dt, floor, vertical});
   test.dt_s = dt;
   test.slip_m.assign(n, 0);
   test.rotation_rad.assign(bench.noise(Channel::rotation) > 0 ? n : 0, 0);

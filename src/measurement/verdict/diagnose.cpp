@@ -7,6 +7,7 @@
 #include <freestand/error.hpp>
 #include <map>
 
+#include "measurement/data/floor_readings.hpp"
 #include "measurement/fit/outcome_fit.hpp"
 #include "measurement/fit/starts.hpp"
 #include "measurement/laboratory/laboratory.hpp"
@@ -206,13 +207,12 @@ class Diagnoser : PairSearch {
     for (std::size_t i = 0; i < tests_; ++i) {
       const double unread = judge.unread()[i], noise = std::sqrt(std::pow(judge.expected()[i], 2) - unread * unread);
       if (unread < noise || unread < most) continue;
-      const FloorMotion& floor = judge.test(i).motion;
       most = unread;
       where = fmt::format(
           "the floor of test {} was read every {:.3g} s: what it did between its readings may change the history by "
           "{:.2g} times the noise, "
           "which is allowed for; read it more often",
-          judge.test(i).id, floor.knot_s[1] - floor.knot_s[0], unread);
+          judge.test(i).id, readings_of(judge.test(i)).step_s, unread);
     }
     if (!where.empty()) out_.quality.findings.push_back(where);
   }
