@@ -97,18 +97,17 @@ Judge::Judge(const Bench& bench, const ModelSpec& reference, const Values& x, co
     const Test& test = bench.test(tests_[i]);
     const Prediction nominal = predict(reference, test, x);
     Values all{0, 0};
-    const auto add = [&](const Prediction& other, double times, double& count) {
+    const auto add = [&](const Prediction& other, double& count) {
       if (other.failed() != nominal.failed()) return;
-      const Eigen::VectorXd column =
-          times * stacked(
-                      bench, test, other, [&](Channel c) -> const auto& { return nominal.channel(c); });
+      const Eigen::VectorXd column = stacked(
+          bench, test, other, [&](Channel c) -> const auto& { return nominal.channel(c); });
       if (column.size() > 0) ++count;
       all.insert(all.end(), column.begin(), column.end());
     };
     predict(bench.replays_asked(reference, tests_[i], x),
-            [&](std::size_t, const Prediction& replay) { add(replay, 1, all[0]); });
-    const BetweenReadings& between = bench.between_readings(tests_[i]);
-    for (const FloorMotion& motion : between.thinned) add(predict(reference, test, x, &motion), between.share, all[1]);
+            [&](std::size_t, const Prediction& replay) { add(replay, all[0]); });
+    for (const FloorMotion& motion : bench.between_readings(tests_[i]).strayed)
+      add(predict(reference, test, x, &motion), all[1]);
     if (friction_scatter > 0) {
       const Eigen::VectorXd column = change_with_friction(bench, reference, x, test, friction_scatter);
       all.insert(all.end(), column.begin(), column.end());

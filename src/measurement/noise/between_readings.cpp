@@ -6,13 +6,16 @@
 namespace freestand::measurement {
 namespace {
 
-// Every second reading, from the first on, from what the others say; the first and the last one stay.
-std::vector<double> thinned(const std::vector<double>& readings, std::size_t first, bool smooth) {
+// Every second reading, from the first on, moved by that share of the way to what the others say; the first and the last one stay.
+std::vector<double> strayed(const std::vector<double>& readings, std::size_t first, bool smooth, double share) {
   std::vector<double> places, values;
   for (std::size_t i = 0; i < readings.size(); ++i)
     if (i < first || (i - first) % 2 != 0 || i + 1 == readings.size())
       places.push_back(static_cast<double>(i)), values.push_back(readings[i]);
-  return readings.empty() ? readings : curve_through(places, values, smooth, 1, readings.size());
+  if (readings.empty()) return readings;
+  std::vector<double> moved = curve_through(places, values, smooth, 1, readings.size());
+  for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = readings[i] + share * (moved[i] - readings[i]);
+  return moved;
 }
 
 // The middle between readings at -3, -1, 1 and 3, by the line or the cubic through them.
@@ -39,15 +42,16 @@ double missed(const std::vector<double>& readings, std::size_t steps, bool smoot
 BetweenReadings between_readings(const FloorReadings& read, double noise_mps2) {
   if (read.horizontal_mps2.size() < 5) return {};
   const bool smooth = read.smooth();
-  BetweenReadings found;
-  for (const std::size_t first : {1U, 2U})
-    found.thinned.push_back(motion_through({read.name, read.step_s, thinned(read.horizontal_mps2, first, smooth),
-                                            thinned(read.vertical_mps2, first, smooth)}));
   // What steps of 2 h miss over what h misses, as errors of histories go.
   const double by_one = missed(read.horizontal_mps2, 1, smooth, noise_mps2),
                by_two = missed(read.horizontal_mps2, 2, smooth, noise_mps2);
   const double of_smooth = smooth ? 16 : 4, ratio = by_one > 0 ? std::sqrt(by_two / by_one) : of_smooth;
+  BetweenReadings found;
   found.share = 1 / (std::clamp(ratio, 2.0, of_smooth) - 1);
+  for (const std::size_t first : {1U, 2U})
+    found.strayed.push_back(
+        motion_through({read.name, read.step_s, strayed(read.horizontal_mps2, first, smooth, found.share),
+                        strayed(read.vertical_mps2, first, smooth, found.share)}));
   return found;
 }
 

@@ -1,7 +1,7 @@
 // What a floor does between its readings. The model takes it for a line or a smooth curve there (floor_readings.hpp), and a history strays
-// from what the floor really did. How far, the readings show: left out every second one, the history strays further, in much the same way.
-// A floor that is smooth between its readings is missed by lines as h^2, by cubics as h^4: 4 and 16 times as much at twice the step h, and
-// at h by a third and a fifteenth of what the thinning adds; one that is not, by up to all of it.
+// from what the floor really did. How far, the readings show: left out every second one, those between are missed, and the history strays in
+// much the same way, but further. A floor that is smooth between its readings is missed by lines as h^2, by cubics as h^4: 4 and 16 times
+// as much at twice the step h, and at h by a third and a fifteenth of what the thinning adds; one that is not, by up to all of it.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@
 namespace freestand::measurement {
 
 struct BetweenReadings {
-  std::vector<FloorMotion> thinned;  // without the odd readings, without the even ones; empty: no floor was read
-  double share =
-      1;  // of what the thinning adds to a history, of either, that is missing between all readings: 1/15 to 1
+  double share = 1;  // of what the thinning adds that is missing between all readings: 1/15 to 1
+  // With the odd readings moved by this share of the way to what the others say, and with the even ones; empty: no floor was read.
+  std::vector<FloorMotion> strayed;
 };
 
 // noise_mps2: of the floor's readings.

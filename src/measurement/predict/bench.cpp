@@ -234,19 +234,18 @@ std::vector<Asked> Bench::replays_asked(const ModelSpec& model, std::size_t i, s
 
 Spread Bench::spread(const ModelSpec& model, std::size_t i, std::span<const double> x,
                      const Prediction& nominal) const {
-  return changes(model, i, x, nominal, replays_[i], 1);
+  return changes(model, i, x, nominal, replays_[i]);
 }
 
 Spread Bench::unread_spread(const ModelSpec& model, std::size_t i, std::span<const double> x,
                             const Prediction& nominal) const {
-  const auto& [thinned, share] = between_readings_[i];
-  return changes(model, i, x, nominal, thinned, share * share);
+  return changes(model, i, x, nominal, between_readings_[i].strayed);
 }
 
 Spread Bench::changes(const ModelSpec& model, std::size_t i, std::span<const double> x, const Prediction& nominal,
-                      const std::vector<FloorMotion>& motions, double weight) const {
+                      const std::vector<FloorMotion>& motions) const {
   Spread spread(channel_count);
-  const double share = weight / static_cast<double>(std::max<std::size_t>(motions.size(), 1));
+  const double share = 1 / static_cast<double>(std::max<std::size_t>(motions.size(), 1));
   for (int c = 0; c < channel_count; ++c)
     spread[static_cast<std::size_t>(c)].assign(history(test(i), static_cast<Channel>(c)).size(), 0.0);
   predict(asked_under(motions, model, test(i), x), [&](std::size_t, const Prediction& other) {

@@ -73,9 +73,9 @@ class Bench {
 
  private:
   void leave_out_floor(Sensor& both) const;
-  // Mean square of what these motions in place of the test's change, times a weight.
+  // Mean square of what these motions in place of the test's change.
   Spread changes(const ModelSpec&, std::size_t test, std::span<const double> x, const Prediction& nominal,
-                 const std::vector<FloorMotion>&, double weight) const;
+                 const std::vector<FloorMotion>&) const;
 
   const Dataset& data_;
   std::vector<double> floor_noise_mps2_;

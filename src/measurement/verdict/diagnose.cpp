@@ -58,6 +58,7 @@ class Diagnoser : PairSearch {
     }
     search_more();
     decide_all();
+    tell_unread_floors();
     tell_deviations();
     if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_))
       if (std::string specimens = friction_of_specimens(bench_, *out_.own_friction); !specimens.empty())
@@ -187,7 +188,6 @@ class Diagnoser : PairSearch {
       const Judge judge = judge_of(out_.base.fit);
       out_.chances.clear();
       out_.strays = judge.strays();
-      if (out_.friction_scatter == 0) tell_unread_floors(judge);
       if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
       if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance()) {
         out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
@@ -200,8 +200,12 @@ class Diagnoser : PairSearch {
     ask();
   }
 
-  // Said where a floor was read so seldom that this tells more of a history's error than sensors and the floor's noise together.
-  void tell_unread_floors(const Judge& judge) {
+  // Said where a floor was read so seldom that this tells more of a history's error than sensors and the floor's noise together: under the
+  // model that comes closest, since one that is wrong may fan out where the specimen did not.
+  void tell_unread_floors() {
+    if (kind_of_set(bench_) != Kind::history || out_.friction_scatter > 0) return;
+    const bool none = out_.verdict == Verdict::none || !out_.best;
+    const Judge judge = judge_of(none ? out_.base.fit : out_.candidates[*out_.best].fit);
     double most = 0;
     std::string where;
     for (std::size_t i = 0; i < tests_; ++i) {
