@@ -136,7 +136,7 @@ void Judge::take(const std::vector<Values>& columns, double limit) {
     A /= std::sqrt(std::max<double>(static_cast<double>(count), 1));
     const auto n = static_cast<double>(std::max<Eigen::Index>(rows, 1));
     unread_.push_back(changes.middleCols(count, between).norm() / std::sqrt(n * std::max<double>(columns[i][1], 1)));
-    expected_.push_back(std::sqrt(1 + A.squaredNorm() / n + std::pow(unread_.back(), 2)));
+    expected_.push_back(std::sqrt(1 + A.squaredNorm() / n));
     std::vector<Eigen::Index> kept;
     for (Eigen::Index k = 0; k < rows; ++k)
       if (A.row(k).squaredNorm() <= limit * limit) kept.push_back(k);

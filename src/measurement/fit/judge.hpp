@@ -63,7 +63,7 @@ class Judge {
   std::vector<double> misfit_of_fit(const ModelFit&) const;
   // Number of samples of each calibration test, without those left out.
   const std::vector<double>& samples() const { return samples_; }
-  // Of the reference: expected_error() of each calibration test.
+  // Of the reference: expected_error() of each calibration test, by the noise of sensors and floor.
   const std::vector<double>& expected() const { return expected_; }
   // Of the reference, each calibration test: the misfit that each replay shows to the covariance of the others. Near none
   // where the floor's noise bends the motion a little; where it decides which way the motion goes, a model that is right may
