@@ -58,26 +58,39 @@ Probability lines(const std::vector<Node>& nodes, double im) {
 Probability blend(std::span<const Probability> known, std::span<const double> weights) {
   double resolution = least_resolution;
   for (const Probability& p : known) resolution = std::max(resolution, p.resolution);
-  const auto mean = [&](double Probability::*member) {
-    const auto all = [&](auto&& is) { return std::all_of(known.begin(), known.end(), is); };
-    const bool plain = all([&](const Probability& p) { return p.*member <= resolution; }) ||
-                       all([&](const Probability& p) { return p.*member >= 1 - resolution; });
-    double sum = 0;
-    for (std::size_t i = 0; i < known.size(); ++i) {
-      const double p = known[i].*member;
-      sum += weights[i] * (plain ? p : gsl_cdf_ugaussian_Pinv(drawn_in(p, resolution)));
-    }
-    return std::clamp(plain ? sum : gsl_cdf_ugaussian_P(sum), 0.0, 1.0);
-  };
-  // Phi^-1 has no end at 0 and 1: where one of them may be there, so may what lies between.
+  const auto none = [&](const Probability& p) { return p.value <= resolution; };
+  const auto all = [&](const Probability& p) { return p.value >= 1 - resolution; };
+  const auto every = [&](auto&& is) { return std::all_of(known.begin(), known.end(), is); };
   const auto any = [&](auto&& is) {
     for (std::size_t i = 0; i < known.size(); ++i)
       if (weights[i] > 0 && is(known[i])) return true;
     return false;
   };
-  return {mean(&Probability::value),
-          any([](const Probability& p) { return p.lower <= 0; }) ? 0 : mean(&Probability::lower),
-          any([](const Probability& p) { return p.upper >= 1; }) ? 1 : mean(&Probability::upper), resolution};
+  // Between one that never happened, or always did, and one that did sometimes, Phi^-1 tells how many samples there were, and not where
+  // between them the change begins.
+  const bool mixed = (any(none) && !every(none)) || (any(all) && !every(all));
+  // Of weights below zero, which extrapolate, the opposite end.
+  const auto mean = [&](double Probability::*end, double Probability::*opposite) {
+    const auto of = [&](std::size_t i) { return known[i].*(weights[i] < 0 ? opposite : end); };
+    bool plain = mixed, low = true, high = true;
+    for (std::size_t i = 0; i < known.size(); ++i) low &= of(i) <= resolution, high &= of(i) >= 1 - resolution;
+    plain = plain || low || high;
+    double sum = 0;
+    for (std::size_t i = 0; i < known.size(); ++i)
+      sum += weights[i] * (plain ? of(i) : gsl_cdf_ugaussian_Pinv(drawn_in(of(i), resolution)));
+    return std::clamp(plain ? sum : gsl_cdf_ugaussian_P(sum), 0.0, 1.0);
+  };
+  Probability blended{mean(&Probability::value, &Probability::value), mean(&Probability::lower, &Probability::upper),
+                      mean(&Probability::upper, &Probability::lower), resolution};
+  // Phi^-1 has no end at 0 and 1: where one of them may be there, so may what lies between.
+  if (any([](const Probability& p) { return p.lower <= 0; })) blended.lower = 0;
+  if (any([](const Probability& p) { return p.upper >= 1; })) blended.upper = 1;
+  for (std::size_t i = 0; mixed && i < known.size(); ++i)
+    if (weights[i] > 0) {
+      blended.lower = std::min(blended.lower, known[i].lower);
+      blended.upper = std::max(blended.upper, known[i].upper);
+    }
+  return blended;
 }
 
 Probability at(const Curve& curve, double im) {

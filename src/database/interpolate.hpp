@@ -16,8 +16,9 @@ struct Probability {
 
 // Between known ones with these weights, which sum to 1 and may be negative outside of them. The mean is taken of
 // Phi^-1(P), each P first drawn in to the resolution: lognormal curves of one dispersion come out exactly, and the ends of a
-// band stay in order. Where all are within the resolution of 0, or of 1, the mean is of P itself; each end of the band for
-// itself. A lower end of 0, or an upper one of 1, of any that has a positive weight is that of the answer.
+// band stay in order; with a negative weight the opposite end. Where all are within the resolution of 0, or of 1, the mean is of P itself;
+// each end of the band for itself. So it is where some are and others are not: where between them the change begins no entry tells, and
+// the band holds the bands of both. A lower end of 0, or an upper one of 1, of any that has a positive weight is that of the answer.
 Probability blend(std::span<const Probability> known, std::span<const double> weights);
 
 // The curve at an intensity > 0, by the rule that its family states: the lognormal of median and dispersion, or straight lines

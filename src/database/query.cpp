@@ -160,11 +160,14 @@ std::string between_points(const std::vector<Between>& parts, double im) {
       if (!(change > here.upper - here.lower && change > most)) continue;
       most = change;
       text = fmt::format(
-          "from {:.3g} to {:.3g} it goes from {:.2g} to {:.2g}, and what it does between them no band holds", a.im,
-          b.im, a.probability, b.probability);
+          "from {:.3g} to {:.3g} {} from {:.2g} to {:.2g}, and what it does between them no band holds", a.im, b.im,
+          parts.size() > 1 || part.curves.size() > 1 ? "one of the curves that this is drawn from goes" : "it goes",
+          a.probability, b.probability);
     }
   return text;
 }
+
+constexpr std::int64_t few_motions = 10;  // as `run` warns
 
 std::string rule(const std::vector<Between>& parts) {
   std::size_t all = 0, lognormal = 0;
@@ -199,6 +202,12 @@ Answer answer(const Database& db, const Question& question, bool binary, GridPoi
     p.lower = std::min(p.lower, p.value);
     p.upper = std::max(p.upper, p.value);
   }
+  std::int64_t motions = std::numeric_limits<std::int64_t>::max();
+  for (const Part& part : point.parts) motions = std::min(motions, db.entries[part.entry].motions);
+  if (motions > 0 && motions < few_motions)
+    answer.notes.push_back(fmt::format(
+        "the band rests on {} motion{}: {}", motions, motions == 1 ? "" : "s",
+        motions == 1 ? "it says nothing of how much others would differ" : "what resampling so few tells is rough"));
   answer.rule = rule(parts);
   answer.between = between_points(parts, question.im_value);
   answer.parts = std::move(point.parts);

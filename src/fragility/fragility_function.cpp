@@ -237,7 +237,7 @@ class Resampled {
     // Through the shares of two bins there is a lognormal always, which tells nothing of others.
     const auto known =
         std::count_if(of_bins.found.begin(), of_bins.found.end(), [](double d) { return std::isfinite(d); });
-    if (known > 2) curve.off_by = std::max(of_bins.at_most(), worst.at_most());
+    if (known > 2) curve.off_by = std::min(1.0, std::max(of_bins.at_most(), worst.at_most()));
     curve.rate_p = chance_of_small_shares(small_shares(of_bins.found));
     curve.adequate = curve.off_by <= tally_.options().adequate && !rates_differ(curve);
   }

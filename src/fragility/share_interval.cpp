@@ -13,35 +13,31 @@ namespace {
 
 constexpr double fewest_records = 3;  // that make a count whose error is known
 
-// All samples, those that are motions of their own, and the records.
+// Of records.
 struct CountedSums {
-  double n = 0, hits = 0, squares = 0, miss_squares = 0;
-  double single = 0, single_hits = 0;
-  int records = 0, records_that_hit = 0, records_that_missed = 0;  // at least once
+  double n = 0, hits = 0, squares = 0, miss_squares = 0, n_squares = 0;
+  double n_that_hit = 0, n_that_missed = 0;  // samples of records that did, at least once
+  int records = 0;
 
-  CountedSums(std::span<const GroupShare> groups, std::size_t record_groups) {
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const double all = groups[g].n, above = groups[g].hits;
-      n += all;
-      hits += above;
-      if (g >= record_groups) {
-        single += all;
-        single_hits += above;
-      } else if (all > 0) {
-        ++records;
-        records_that_hit += above > 0;
-        records_that_missed += above < all;
-        squares += above * above;
-        miss_squares += (all - above) * (all - above);
-      }
+  explicit CountedSums(std::span<const GroupShare> groups) {
+    for (const GroupShare& g : groups) {
+      if (!(g.n > 0)) continue;
+      ++records;
+      n += g.n;
+      hits += g.hits;
+      squares += g.hits * g.hits;
+      miss_squares += (g.n - g.hits) * (g.n - g.hits);
+      n_squares += g.n * g.n;
+      if (g.hits > 0) n_that_hit += g.n;
+      if (g.hits < g.n) n_that_missed += g.n;
     }
   }
 
   double share() const { return hits / n; }
-  double motions() const { return single + records; }
   // As many that hit alike scatter as these do.
-  double that_hit() const { return hits * hits / (squares + single_hits); }
-  double that_missed() const { return (n - hits) * (n - hits) / (miss_squares + single - single_hits); }
+  double that_hit() const { return hits * hits / squares; }
+  double that_missed() const { return (n - hits) * (n - hits) / miss_squares; }
+  double effective_records() const { return n * n / n_squares; }
 };
 
 // Limits in ln odds.
@@ -50,24 +46,17 @@ class OddsLimits {
   OddsLimits(std::span<const GroupShare> records, const CountedSums& sums)
       : p_(sums.share()), independent_(std::sqrt(p_ * (1 - p_) / sums.n)) {
     VarianceSum variance;
+    // By how much p moves where the record is left out: one that makes most of p hides how far it lies off the others.
     std::vector<double> excess;
-    for (const GroupShare& g : records)
-      if (g.n > 0) excess.push_back(g.hits - p_ * g.n);
-    const double n2 = sums.n * sums.n, groups = static_cast<double>(excess.size());
-    if (groups > 1) {
-      double sum = 0, squares = 0;
-      for (const double e : excess) {
-        sum += e;
-        squares += e * e;
-      }
-      variance.add((squares - sum * sum / groups) * groups / (groups - 1) / n2, excess);
-    } else {
-      variance.add(std::pow(sums.n - sums.single, 2) * p_ * (1 - p_) / n2);  // one record: as one sample
+    double sum = 0, squares = 0;
+    for (const GroupShare& g : records) {
+      if (!(g.n > 0)) continue;
+      excess.push_back((g.hits - p_ * g.n) / (sums.n - g.n));
+      sum += excess.back();
+      squares += excess.back() * excess.back();
     }
-    if (sums.single > 0) {
-      const double own = sums.single_hits / sums.single;
-      variance.add(sums.single * own * (1 - own) / n2);
-    }
+    const auto groups = static_cast<double>(excess.size());
+    variance.add((squares - sum * sum / groups) * (groups - 1) / groups, excess);
     se_ = std::sqrt(variance.value());
     freedom_ = variance.freedom();
   }
@@ -89,22 +78,23 @@ class OddsLimits {
 
 }  // namespace
 
-Interval share_interval(std::span<const GroupShare> groups, std::size_t record_groups, double confidence) {
-  const CountedSums sums(groups, record_groups);
-  if (!(sums.n > 0)) return {0, 1};
-  if (sums.records == 0) return exact_interval(sums.hits, sums.n, confidence);
+namespace {
+
+Interval of_records(std::span<const GroupShare> groups, double confidence) {
+  const CountedSums sums(groups);
   if (sums.hits <= 0 || sums.hits >= sums.n)
-    return exact_interval(sums.share() * sums.motions(), sums.motions(), confidence);
-  if (sums.motions() < 2) return {0, 1};
-  const OddsLimits limits(groups.first(record_groups), sums);
+    return exact_interval(sums.share() * sums.records, sums.records, confidence);
+  if (sums.records < 2) return {0, 1};
+  const OddsLimits limits(groups, sums);
   // No share is greater than that of the records that show anything of it, whose own limit lies above what they are of all.
-  const auto at_most = [&](double limit, int shown, double of) {
-    if (sums.single > 0 || limit * sums.records <= shown) return limit;
-    return std::min(limit, exact_interval(shown, sums.records, 1 - 2 * of).upper);
+  const auto at_most = [&](double limit, double share_shown, double of) {
+    if (limit <= share_shown) return limit;
+    const double records = sums.effective_records();
+    return std::min(limit, exact_interval(share_shown * records, records, 1 - 2 * of).upper);
   };
-  const double tail = (1 - confidence) / 2, of_none = -std::expm1(std::log(tail) / sums.motions());
-  const auto own_lower = [&](double of) { return 1 - at_most(1 - limits.lower(of), sums.records_that_missed, of); };
-  const auto own_upper = [&](double of) { return at_most(limits.upper(of), sums.records_that_hit, of); };
+  const double tail = (1 - confidence) / 2, of_none = -std::expm1(std::log(tail) / sums.records);
+  const auto own_lower = [&](double of) { return 1 - at_most(1 - limits.lower(of), sums.n_that_missed / sums.n, of); };
+  const auto own_upper = [&](double of) { return at_most(limits.upper(of), sums.n_that_hit / sums.n, of); };
   const auto lower = [&](double of) {
     return sums.that_missed() < fewest_records ? std::min(own_lower(of), 1 - of_none) : own_lower(of);
   };
@@ -113,6 +103,28 @@ Interval share_interval(std::span<const GroupShare> groups, std::size_t record_g
   };
   const double least = lower(tail), most = upper(tail);
   return {lower(tail + unused_tail(tail, +1, own_upper, most)), upper(tail + unused_tail(tail, -1, own_lower, least))};
+}
+
+}  // namespace
+
+Interval share_interval(std::span<const GroupShare> groups, std::size_t record_groups, double confidence) {
+  const auto records = groups.first(std::min(record_groups, groups.size()));
+  GroupShare all{0, 0}, single{0, 0};
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    all.n += groups[g].n, all.hits += groups[g].hits;
+    if (g >= record_groups) single.n += groups[g].n, single.hits += groups[g].hits;
+  }
+  const double of_record = all.n - single.n, hits_of_record = all.hits - single.hits;
+  if (!(all.n > 0)) return {0, 1};
+  if (!(of_record > 0)) return exact_interval(all.hits, all.n, confidence);
+  const Interval recorded = of_records(records, confidence);
+  if (!(single.n > 0)) return recorded;
+  const Interval made = exact_interval(single.hits, single.n, confidence);
+  const double p = all.hits / all.n;
+  const auto limit = [&](double of_records, double of_single) {
+    return std::hypot((of_record * of_records - hits_of_record) / all.n, (single.n * of_single - single.hits) / all.n);
+  };
+  return {std::max(0.0, p - limit(recorded.lower, made.lower)), std::min(1.0, p + limit(recorded.upper, made.upper))};
 }
 
 }  // namespace freestand::fragility

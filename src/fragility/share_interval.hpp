@@ -12,11 +12,15 @@ struct GroupShare {
   double n, hits;
 };
 
-// The first record_groups are groups of records, the others hold samples that are motions of their own. Without records the exact binomial
-// limits. With them, of the share p of all n samples, limits in ln odds,
-//   ln(p/(1 - p)) -+ t_f se/(p (1 - p)),   se^2 = sum over records of (e - mean e)^2 G/(G - 1)/n^2,   e = hits - p n_g
-// with that of binomial counts beside it for samples of their own, and the degrees of freedom f that the records show: few records that
+// The first record_groups are groups of records, the others hold samples that are motions of their own: of these the exact binomial
+// limits. Of the share p of the n samples of records, limits in ln odds,
+//   ln(p/(1 - p)) -+ t_f se/(p (1 - p)),   se^2 = sum over the G records of (e - mean e)^2 (G - 1)/G,   e = (hits - p n_g)/(n - n_g),
+// e being by how much p moves where the record is left out, with the degrees of freedom f that the records show: few records that
 // make most of the count tell its error badly (variance_sum.hpp). At least as far as independent samples reach.
+//
+// Of both together p = (n_1 p_1 + n_2 p_2)/n lies off by the root of the sum of squares of what the limits of each lie off, upper and lower
+// ones apart (G. Zou & A. Donner, Statistics in Medicine 27, 2008): four records that never overturned are four, however many samples of
+// pulses did not either.
 //
 // Where fewer than three records make the count, (sum hits)^2/(sum hits^2) < 3, their scatter has fewer than two degrees of freedom, of
 // which Student's t has no variance: how many samples of a record exceed at a time is not known. Then the upper limit is at least that of
@@ -24,8 +28,8 @@ struct GroupShare {
 // then does not need is the lower one's (unused_tail). Of misses and the lower limit alike. Where none or all hit, that limit alone.
 // [0, 1] where no two motions have samples.
 //
-// Of records alone, p is the mean of a record's share, which is at most the probability that a record shows anything of it: the exact limit
-// of the records that do bounds the upper one (80 of the 100 samples of one record in ten, none of the others': 0.39 instead of 0.97).
+// p is the mean of a record's share, which is at most the probability that a record shows anything of it: the exact limit of
+// the records that do, of as many as n^2/(sum n_g^2) that are alike, bounds the upper one (80 of the 100 samples of one record in ten, none of the others': 0.39 instead of 0.97).
 //
 // By simulation (tests/fragility/share_coverage_test.cpp: ln demand normal, a part of its variance between records; 10,000 repeats, error
 // 0.003) of 25 samples a record, P = 0.1 to 0.7, correlation 0 to 0.8, intervals of 90 % hold the truth in 0.899 to 0.940 of the cases with
@@ -33,8 +37,8 @@ struct GroupShare {
 // independent samples bound the reach from below) and 14 that are nearly one sample each (0.940): a share of 14 jumps by 0.07. Exact limits
 // at an effective number of samples (E. Korn & B. Graubard, Survey Methodology 24, 1998) hold it in up to 0.958 there, and with P = 0.03 in
 // 0.80: of one or two records that exceed they take the error for known. Where records are drawn by weights (dispersion
-// 0.5 and 0.8, which have nothing to do with what the records do; P 0.2 and 0.5) 0.874 to 0.912 with 22 to 100 records; where none hit, each
-// record counts as one all the same. Where P times the number of records is below 1, no interval of
+// 0.5 and 0.8, which have nothing to do with what the records do; P 0.2 and 0.5) 0.874 to 0.912 with 22 to 100 records (before e was that of
+// a record left out); where none hit, each record counts as one all the same. Where P times the number of records is below 1, no interval of
 // counts comes near 0.90 everywhere: most studies see none, one or two records that exceed, and the limit of none holds all P below it.
 // Over 120 settings (14 and 40 records; 25, 140 and 1000 samples a record; 0.1, 0.3, 0.5 and 0.8 records expected to exceed; correlation 0 to
 // 0.95; error 0.004) coverage is 0.80 to 0.99: least with 40 records of 1000 samples, 0.1 of them expected and correlation 0.5 (0.796), most where

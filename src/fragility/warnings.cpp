@@ -40,16 +40,17 @@ void about_outcomes(const Tally& tally, const Result& result, std::vector<std::s
                                 tally.options().edps[e].name));
 }
 
+constexpr const char *one_record = "There is only one record", *few_records = "The samples come from only ";
+
 void about_motions(const Tally& tally, const Result& result, std::vector<std::string>& out) {
-  const int records = tally.groups().records();
+  const int records = tally.groups().records(), motions = std::min(records, result.motions);
   if (records == 1)
     out.push_back(
-        "There is only one record: the bands say how well the answer for this record is known, and nothing about how "
-        "much "
-        "other records would differ.");
-  else if (records > 0 && result.motions < few_motions)
-    out.push_back(
-        fmt::format("The samples come from only {} motions: bands from resampling so few are rough.", result.motions));
+        fmt::format("{}: the bands say how well the answer for this record is known, and nothing about how much other "
+                    "records would differ.",
+                    one_record));
+  else if (records > 0 && motions < few_motions)
+    out.push_back(fmt::format("{}{} motions: bands from resampling so few are rough.", few_records, motions));
 }
 
 void about_bins(const EdpResult& edp, const Options& options, std::vector<std::string>& out) {
@@ -210,6 +211,12 @@ std::vector<std::string> warnings(const Tally& tally, const Result& result) {
   }
   if (std::none_of(result.edps.begin(), result.edps.end(), overturned)) about_overturning(tally, result, out);
   return out;
+}
+
+std::string told_of_motions(const Result& result) {
+  for (const std::string& warning : result.warnings)
+    if (warning.starts_with(one_record) || warning.starts_with(few_records)) return warning;
+  return "";
 }
 
 }  // namespace freestand::fragility

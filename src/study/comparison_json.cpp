@@ -6,6 +6,7 @@
 #include "base/units.hpp"
 #include "measurement/fit/bands.hpp"
 #include "measurement/tell/findings.hpp"
+#include "measurement/tell/unread_floors.hpp"
 #include "study/fitted_study.hpp"
 #include "study/posterior_tables.hpp"
 #include "study/spread_jobs.hpp"
@@ -199,6 +200,21 @@ Json posterior_json(const Posterior& open) {
           {"share_counted", open.counted}};
 }
 
+std::string unread_floors(const Bench& bench, const ModelFit& fit, const std::vector<TestComparison>& tests,
+                          const Jobs& jobs) {
+  const auto unread = jobs("floors between their readings", tests.size(), [&](std::size_t i) {
+    const std::size_t test = tests[i].test;
+    if (!bench.test(test).has_history()) return Values{0};
+    const double with_noise = expected_error(bench, bench.unread_spread(fit.model, test, fit.x, tests[i].model));
+    return Values{std::sqrt(std::max(0.0, with_noise * with_noise - 1))};
+  });
+  std::vector<UnreadFloor> floors;
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    if (bench.test(tests[i].test).has_history())
+      floors.push_back({&bench.test(tests[i].test), unread[i][0], tests[i].expected});
+  return told_of_unread(floors);
+}
+
 }  // namespace
 
 Compared compare(const parallel::Communicator& world, const ValidationRun& run, const std::filesystem::path& folder) {
@@ -219,6 +235,8 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
                     "sweeps hold none of that until "
                     "it is fitted with the others (mu: {{calibrate: [0.05, 1]}})",
                     100 * open.friction_scatter));
+  if (const std::string unread = unread_floors(bench, fit, c.tests, jobs); !unread.empty())
+    c.findings.push_back(unread);
   if (const std::string level = level_tests(*p); !level.empty()) c.findings.push_back(level);
   if (fit.evaluations == 0 && !open.better.empty()) c.findings.push_back(better_numbers(fit, open.better));
 

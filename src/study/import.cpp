@@ -108,7 +108,7 @@ class Importer {
   // offset is the middle one, and holds for those, too, whose motion tells nothing.
   std::vector<double> clocks(const std::vector<File>& floors, const std::vector<File>& responses) {
     std::vector<double> found, each;
-    std::vector<std::string> together, mirrored, unsure;
+    std::vector<std::string> together, mirrored, unsure, too_short;
     std::vector<measurement::Timing> as_given(lab_.tests.size()),
         turned(lab_.tests.size());  // turned: or as it is given, the better
     for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
@@ -134,7 +134,7 @@ class Importer {
         continue;
       }
       if (!timing.wrong()) {
-        if (lab.floor.path != lab.response.path) together.push_back(lab.id);
+        if (lab.floor.path != lab.response.path) (timing.judged() ? together : too_short).push_back(lab.id);
         continue;
       }
       if (!timing.known()) {
@@ -162,6 +162,12 @@ class Importer {
           "{}: no offset between the clocks of floor and response is seen by the slips, which are looked through up "
           "to {} s either way: they are taken as one (clock_s of a test says otherwise)",
           fmt::join(together, ", "), longest_offset_s));
+    if (!too_short.empty() && !one_clock)
+      say(
+          fmt::format("{}: slips are too few or too short to tell whether the clocks of floor and response differ: "
+                      "they are taken as one (give clock_s "
+                      "of the test, by how much the response is stamped late)",
+                      fmt::join(too_short, ", ")));
     if (!unsure.empty() && !one_clock)
       say(fmt::format(
           "{}: the slips say that the clocks of floor and response differ, and not by how much: several offsets suit "
@@ -209,8 +215,16 @@ class Importer {
     };
     TestOfLab t;
     t.start_s = start;
-    t.floor = of(floor, floor.time, lab.acceleration);
-    t.vertical = of(floor, floor.time, lab.vertical);
+    // As a floor is taken between its readings (floor_readings.hpp); a gap is filled by a straight line.
+    const bool smooth = is_slow(floor) && !has_gaps(floor);
+    const auto of_floor = [&](const std::optional<LabColumn>& column) {
+      if (!smooth || !column) return of(floor, floor.time, column);
+      std::vector<double> places = floor.time;
+      for (double& place : places) place -= start;
+      return measurement::curve_through(places, channel(floor.table, *column), true, step_s_, count);
+    };
+    t.floor = of_floor(lab.acceleration);
+    t.vertical = of_floor(lab.vertical);
     t.test.id = lab.id;
     t.test.role = lab.role;
     t.test.dt_s = step_s_;
@@ -219,6 +233,16 @@ class Importer {
     t.test.block_acceleration_mps2 = of(response, times, lab.block_acceleration);
     measurement::read_floor(t.test, {lab.id, step_s_, t.floor});
     return t;
+  }
+
+  static bool is_slow(const File& floor) {
+    return measurement::FloorReadings{"", floor.step_s, std::vector<double>(3)}.smooth();
+  }
+
+  static bool has_gaps(const File& file) {
+    for (std::size_t i = 1; i < file.time.size(); ++i)
+      if (file.time[i] - file.time[i - 1] > 1.5 * file.step_s) return true;
+    return false;
   }
 
   // Of the samples as they were written: those between them hide half of it.
@@ -351,9 +375,13 @@ class Importer {
     const double own_s = (floor.time.back() - floor.time.front()) / static_cast<double>(floor.time.size() - 1);
     if (own_s < 1.01 * step_s_) return;  // a clock's rounding, and half a percent of noise
     slow_floor_s_ = own_s;
-    slow_floor_noise_ =
-        std::max(slow_floor_noise_,
-                 std::sqrt(own_s / step_s_) * noise_of(floor, lab.acceleration, lab_.noise.floor_acceleration_mps2));
+    const double given = lab_.noise.floor_acceleration_mps2;
+    const double own = given > 0        ? given
+                       : is_slow(floor) ? measurement::slow_noise(channel(floor.table, lab.acceleration), floor.step_s)
+                                        : noise_of(floor, lab.acceleration, given);
+    const double noise = std::sqrt(own_s / step_s_) * own;
+    // The least of the tests, as one sensor reads them.
+    slow_floor_noise_ = slow_floor_noise_ > 0 ? std::min(slow_floor_noise_, noise) : noise;
   }
 
   void tell_noise() {

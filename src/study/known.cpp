@@ -8,7 +8,8 @@ namespace freestand::study {
 Known registries() {
   Known known;
   for (const auto& edp : edp::all())
-    known.edps.push_back({edp.name, edp.binary, edp.default_capacities, edp.by_default, edp.still, edp.wants});
+    known.edps.push_back(
+        {edp.name, edp.binary, edp.default_capacities, edp.by_default, edp.still, edp.wants, {}, edp.censored});
   for (const auto* measure : intensity::all()) known.intensities.push_back(known_intensity(*measure));
   return known;
 }

@@ -67,6 +67,13 @@ class DamageReader {
           if (const std::string& refusal = known_.edps[used].refusal; !refusal.empty())
             problem(part, fmt::format("damage state {}: {}", part.name, refusal));
         }
+      if (depends_on_order(condition, names))
+        problem(
+            part,
+            fmt::format(
+                "damage state {} is not defined for a block that overturned (of demands that are beyond every capacity "
+                "a difference or a ratio is none): add \"or overturned\" to its condition, or \"and not overturned\"",
+                part.name));
       for (std::size_t i = demands_.size(); i < names.size(); ++i)
         if (!holds_place(condition.uses(), i))
           problem(part, fmt::format("parameter {} of damage state {} stands nowhere in its condition (it would change "
@@ -87,6 +94,23 @@ class DamageReader {
   static std::string name_of(const Quantity& parameter) { return parameter.name.substr(parameter.name.rfind('.') + 1); }
 
  private:
+  // Demands beyond every capacity, one far beyond the others, each in turn: does it say now this and now that?
+  bool depends_on_order(const formula::Condition& condition, const std::vector<formula::Condition::Name>& names) const {
+    std::vector<double> values(names.size(), 1);
+    std::vector<std::size_t> beyond;
+    for (const std::size_t used : condition.uses()) {
+      if (used >= demands_.size()) continue;
+      if (known_.edps[used].censored) beyond.push_back(used);
+      values[used] = known_.edps[used].name == "overturned" ? 1 : 0;
+    }
+    int held = 0;
+    for (const std::size_t farthest : beyond) {
+      for (const std::size_t one : beyond) values[one] = one == farthest ? 1e12 : 1e6;
+      held += condition.holds(values);
+    }
+    return held > 0 && held < static_cast<int>(beyond.size());
+  }
+
   static bool holds_place(const std::vector<std::size_t>& places, std::size_t place) {
     return std::find(places.begin(), places.end(), place) != places.end();
   }

@@ -9,6 +9,7 @@
 
 #include "decision/annual_rate.hpp"
 #include "edp/edp.hpp"
+#include "fragility/warnings.hpp"
 #include "intensity/intensity.hpp"
 #include "io/fragility_file.hpp"
 #include "io/output_folder.hpp"
@@ -167,6 +168,8 @@ RiskAnswer risk(const RiskOptions& options) {
   RiskAnswer answer{hazard, decision::risk(fragility.result, hazard, with_overturned(fragility, options.folder)),
                     fragility.provenance.study_name, period_of(fragility, options, hazard),
                     target_told(parse_stored(fragility.provenance.study, options.folder))};
+  if (const std::string few = fragility::told_of_motions(fragility.result); !few.empty())
+    answer.risk.warnings.insert(answer.risk.warnings.begin(), few);
   if (answer.period_s > 0 && hazard.period_s == 0)
     answer.risk.warnings.push_back(
         fmt::format("{} tells no period: its {} is taken to be at {} s, as the sweep's (a column period_s says it)",

@@ -315,6 +315,7 @@ struct KnownEdp {
   double still = 0;  // threshold where the study gives none
   edp::Wants wants = edp::Wants::nothing;
   std::string refusal = {};  // what is said where this study has not what it wants
+  bool censored = false;     // an overturned block is beyond every capacity of it
 };
 struct KnownIntensity {
   std::string name;

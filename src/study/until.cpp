@@ -93,10 +93,11 @@ std::string not_reached(const Study& study, const fragility::Result& result, con
 std::string passed_over_told(const Drawn& drawn) {
   if (drawn.samples == drawn.alike) return "";
   return fmt::format(
-      "from sample {} of {} on only those were integrated that lie in bins which were not known well enough: curves "
-      "and "
-      "surfaces over this intensity hold, and shares of all samples (how they ended, regressions over all bins) lean "
-      "towards those bins",
+      "from sample {} of {} on only those were integrated that lie in bins which were not known well enough: surfaces "
+      "over this "
+      "intensity hold, bin by bin; shares of all samples (how they ended, regressions over all bins) lean towards "
+      "those bins, and so "
+      "does a fragility function that is not adequate",
       drawn.alike, drawn.samples);
 }
 

@@ -56,6 +56,30 @@ TEST(Interpolate, NoneStaysNone) {
   EXPECT_NEAR(blend(wide, std::array{0.25, 0.75}).upper, 0.1, 1e-12);
 }
 
+// Where the change begins between an entry in which it never happened and one in which it did, neither tells: the answer goes by neither's number
+// of samples, and its band holds both.
+TEST(Interpolate, BetweenNoneAndSomeTheBandHoldsBoth) {
+  double before = 0;
+  for (const double resolution : {1e-3, 1e-5}) {
+    const std::array known{Probability{0, 0, 0.004, resolution}, Probability{0.58, 0.49, 0.66, resolution}};
+    const Probability p = blend(known, std::array{0.44, 0.56});
+    EXPECT_NEAR(p.value, 0.56 * 0.58, 1e-12);
+    if (before > 0) EXPECT_EQ(p.value, before);
+    before = p.value;
+    EXPECT_EQ(p.lower, 0);
+    EXPECT_GE(p.upper, 0.66);
+  }
+}
+
+// Beyond the last entry the band is no narrower than that of the nearest one.
+TEST(Interpolate, ExtrapolationIsNoSurer) {
+  const std::array known{Probability{0.3, 0.2, 0.4, 1e-3}, Probability{0.6, 0.5, 0.7, 1e-3}};
+  const Probability p = blend(known, std::array{-0.3, 1.3});
+  EXPECT_GT(p.upper - p.lower, 0.2);
+  EXPECT_LT(p.lower, p.value);
+  EXPECT_GT(p.upper, p.value);
+}
+
 TEST(Interpolate, ALognormalGoesOnBeyondThePointsAndTakesItsBandAlong) {
   const Curve curve = test::curve(0, 0.05, 0.4, 0.5);
   for (const double im : {0.08, 0.13, 0.3, 1.7, 2.1}) {

@@ -76,24 +76,47 @@ TEST(ShareInterval, OfMissesIsTheMirror) {
   }
 }
 
-// Twenty records all alike, and beside them as many samples that are motions of their own, whose scatter is binomial and known.
-TEST(ShareInterval, AddsWhatSamplesOfTheirOwnScatter) {
+// Records, and beside them samples that are motions of their own: each by its limits, which add as errors do.
+TEST(ShareInterval, OfRecordsAndOfSamplesOfTheirOwnLimitsAddAsErrors) {
   std::vector<GroupShare> groups;
   for (int g = 0; g < 20; ++g) groups.push_back({10, g < 10 ? 10.0 : 0.0});
-  for (int g = 0; g < 4; ++g) groups.push_back({50, 25});
-  const double records = 0.25 / 19 / 4, own = 0.25 / 200 / 4,
-               freedom = std::pow(records + own, 2) / (records * records / 19);
-  const double reach = gsl_cdf_tdist_Qinv(0.05, freedom) * std::sqrt(records + own) / 0.25;
-  EXPECT_NEAR(share_interval(groups, 20, 0.9).upper, odds_limit(0.5, reach), 1e-12);
+  const Interval records = share_interval(groups, 20, 0.9), own = exact_interval(100, 400, 0.9);
+  for (int g = 0; g < 4; ++g) groups.push_back({100, 25});
+  const Interval both = share_interval(groups, 20, 0.9);
+  const double p = 200.0 / 600;
+  EXPECT_NEAR(both.upper, p + std::hypot((records.upper - 0.5) / 3, 2 * (own.upper - 0.25) / 3), 1e-12);
+  EXPECT_NEAR(both.lower, p - std::hypot((records.lower - 0.5) / 3, 2 * (own.lower - 0.25) / 3), 1e-12);
 }
 
-TEST(ShareInterval, OfOneRecordIsAllOrAsOneSample) {
+// Four records of three quarters of all samples, in which nothing happened: at 90 % a record may show it with probability 0.527, whatever
+// the pulses beside them tell.
+TEST(ShareInterval, FewRecordsInWhichNothingHappenedTellLittle) {
+  std::vector<GroupShare> groups;
+  for (int g = 0; g < 4; ++g) groups.push_back({188, 0});
+  groups.push_back({250, 0});
+  const Interval found = share_interval(groups, 4, 0.9);
+  EXPECT_EQ(found.lower, 0);
+  EXPECT_NEAR(found.upper, 0.75 * 0.527, 0.01);
+}
+
+TEST(ShareInterval, OfOneRecordNothingIsKnown) {
   const std::vector<GroupShare> alone{{30, 12}}, beside{{30, 12}, {30, 12}};
   EXPECT_EQ(share_interval(alone, 1, 0.9).lower, 0);
   EXPECT_EQ(share_interval(alone, 1, 0.9).upper, 1);
-  const Interval found = share_interval(beside, 1, 0.9);
-  const double se = std::sqrt(0.24 * (0.25 + 0.25 / 30)) / 0.24;
-  EXPECT_NEAR(found.upper, odds_limit(0.4, gsl_cdf_ugaussian_Qinv(0.05) * se), 1e-12);
+  EXPECT_GT(share_interval(beside, 1, 0.9).upper, 0.4 + 0.5 * 0.6);
+}
+
+// One record of weight 60 beside 19 of weight 1: what it shows is one record, not the mean of all. Intervals hold their estimate.
+TEST(ShareInterval, ARecordThatOutweighsTheOthersIsOneRecord) {
+  std::vector<GroupShare> groups{{600, 500}};
+  for (int g = 0; g < 19; ++g) groups.push_back({10, g % 2 ? 10.0 : 0.0});
+  const Interval found = share_interval(groups, 20, 0.9);
+  EXPECT_GT(found.upper - found.lower, 0.3);
+  std::vector<GroupShare> rare{{600, 300}};
+  for (int g = 0; g < 19; ++g) rare.push_back({10, 0});
+  const Interval of_rare = share_interval(rare, 20, 0.9);
+  EXPECT_LE(of_rare.lower, 300.0 / 790);
+  EXPECT_GE(of_rare.upper, 300.0 / 790);
 }
 
 }  // namespace

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "measurement/fit/model_fit.hpp"
 #include "measurement/made_tests.hpp"
 #include "measurement/noise/third_differences.hpp"
 #include "measurement/search.hpp"
+#include "support/keyed_random.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -88,6 +90,19 @@ TEST(Score, IsTheRootMeanSquareInNoiseUnits) {
 TEST(Bench, NoiseOfASignalIsReadOffItsQuietParts) {
   const Dataset data = test::made_dataset(cabinet(0.2));
   EXPECT_NEAR(sensor_noise(data.tests[0].rotation_rad) / test::rotation_noise_rad, 1, 0.15);
+}
+
+// A floor of 8 Hz that is read at 50 Hz and quiet for some tenths of a second: the noise of its sensor, and not its motion.
+TEST(SensorNoise, OfASlowSensorIsHeardWhereTheFloorIsQuiet) {
+  test::KeyedRandom random(17, 1);
+  for (const double step : {0.02, 0.01}) {
+    std::vector<double> read;
+    for (double t = 0; t < 8; t += step)
+      read.push_back((t > 0.7 && t < 7.2 ? 3 * std::sin(2 * std::numbers::pi * 8 * t) : 0) + 0.007 * random.normal());
+    EXPECT_GT(slow_noise(read, step), 0.006) << step;
+    EXPECT_LT(slow_noise(read, step), 0.007 * 2) << step;
+    EXPECT_GT(sensor_noise(read), 0.05) << step;
+  }
 }
 
 TEST(ModelFit, FindsFrictionAgainWithAnErrorOfTheNoise) {

@@ -68,6 +68,13 @@ TEST(DamageStates, ThoseThatHoldForEveryBlockThatOverturnedAreNamed) {
   EXPECT_THAT(states.with_overturned(), testing::ElementsAre("door", "both", "any"));
 }
 
+// Beyond every capacity by two demands, their difference is none: a condition must say what an overturned block is.
+TEST(DamageStates, WhatIsDefinedForOverturnedBlocksIsTaken) {
+  EXPECT_NO_THROW(
+      study("  edp: [overturned]\n  damage: {a: peak_slip_m - residual_slip_m > 0.03 or overturned, b: peak_slip_m - "
+            "residual_slip_m > 0.03 and not overturned, c: peak_slip_m > 0.1 and residual_slip_m > 0.05}\n"));
+}
+
 // P(d > C) of a lognormal capacity is Phi(ln(d/median)/dispersion). With 20000 independent draws its standard error is at
 // most 0.0036, here 4.5 of them.
 TEST(DamageStates, ACapacityThatIsADistributionIsExceededAsOftenAsItSays) {

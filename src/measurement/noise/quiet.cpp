@@ -41,11 +41,11 @@ std::vector<bool> motion_of(const Dataset& data, const Test& test, double times 
 }
 
 // The least floor, over the tests, that had been reached when something was first seen to move beyond doubt.
-double floor_that_moves(const Dataset& data) {
+double floor_that_moves(const Dataset& data, double times) {
   double least = std::numeric_limits<double>::infinity();
   for (const Test& test : data.tests) {
     if (test.role == Role::holdout || !test.has_history() || !test.start.upright_at_rest()) continue;
-    const std::vector<bool> moves = motion_of(data, test, surely);
+    const std::vector<bool> moves = motion_of(data, test, times);
     double reached = 0;
     std::size_t i = 0;
     for (; i < moves.size() && !moves[i]; ++i) reached = std::max(reached, std::abs(floor_acceleration_mps2(test, i)));
@@ -82,7 +82,9 @@ double acceleration_in_slips(const Dataset& data) {
 }  // namespace
 
 double floor_without_slip_mps2(const Dataset& data) {
-  return below * std::min(floor_that_moves(data), acceleration_in_slips(data));
+  const double beyond_doubt = std::min(floor_that_moves(data, surely), acceleration_in_slips(data));
+  // Where nothing moves beyond doubt, small slips may still hide in noise: what is seen of motion at all is taken for it.
+  return below * (std::isfinite(beyond_doubt) ? beyond_doubt : floor_that_moves(data, 1));
 }
 
 std::vector<QuietStretch> quiet_stretches(const Dataset& data, Channel channel) {

@@ -11,7 +11,12 @@ namespace freestand::measurement {
 // [the unit of the signal]. Not above what the signal itself does there, and not below what its resolution makes (resolution.hpp).
 double sensor_noise(const std::vector<double>& signal);
 
-// Of the floor's acceleration under a test [m/s2]: as stated, or else by the above; 0 of a pulse, and of tests without histories.
+// The same of an acceleration that is read more than 5 ms apart: in shorter windows, since third differences of so few readings a cycle are
+// the motion itself, and what is quiet may be short.
+double slow_noise(const std::vector<double>& signal, double step_s);
+
+// Of the floor's acceleration under a test [m/s2]: as stated, or else by the above, of slow ones the least of all tests; 0 of a pulse, and
+// of tests without histories.
 double floor_noise_mps2(const Dataset&, const Test&);
 
 }  // namespace freestand::measurement

@@ -7,10 +7,10 @@
 #include <freestand/error.hpp>
 #include <map>
 
-#include "measurement/data/floor_readings.hpp"
 #include "measurement/fit/outcome_fit.hpp"
 #include "measurement/fit/starts.hpp"
 #include "measurement/laboratory/laboratory.hpp"
+#include "measurement/tell/unread_floors.hpp"
 #include "measurement/verdict/chance_of_peaks.hpp"
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
@@ -206,19 +206,9 @@ class Diagnoser : PairSearch {
     if (kind_of_set(bench_) != Kind::history || out_.friction_scatter > 0) return;
     const bool none = out_.verdict == Verdict::none || !out_.best;
     const Judge judge = judge_of(none ? out_.base.fit : out_.candidates[*out_.best].fit);
-    double most = 0;
-    std::string where;
-    for (std::size_t i = 0; i < tests_; ++i) {
-      const double unread = judge.unread()[i];
-      if (unread < judge.expected()[i] || unread < most) continue;
-      most = unread;
-      where = fmt::format(
-          "the floor of test {} was read every {:.3g} s: what it did between its readings may change the history by "
-          "{:.2g} times the noise, "
-          "which is allowed for; read it more often",
-          judge.test(i).id, readings_of(judge.test(i)).step_s, unread);
-    }
-    if (!where.empty()) out_.quality.findings.push_back(where);
+    std::vector<UnreadFloor> floors;
+    for (std::size_t i = 0; i < tests_; ++i) floors.push_back({&judge.test(i), judge.unread()[i], judge.expected()[i]});
+    if (std::string told = told_of_unread(floors); !told.empty()) out_.quality.findings.push_back(std::move(told));
   }
 
   // Does a clock of its own in each test take a model to the noise, where all else leaves at least so much?
