@@ -6,7 +6,7 @@
 #include "base/units.hpp"
 #include "measurement/fit/bands.hpp"
 #include "measurement/tell/findings.hpp"
-#include "measurement/tell/unread_floors.hpp"
+#include "measurement/noise/unread_floors.hpp"
 #include "study/fitted_study.hpp"
 #include "study/posterior_tables.hpp"
 #include "study/spread_jobs.hpp"

@@ -7,66 +7,19 @@
 #include <cmath>
 #include <freestand/error.hpp>
 
-#include "base/lab_table.hpp"
 #include "base/shown_text.hpp"
 #include "measurement/data/floor_readings.hpp"
 #include "measurement/laboratory/timing.hpp"
 #include "measurement/noise/third_differences.hpp"
 #include "measurement/predict/bench.hpp"
-#include "study/between_samples.hpp"
+#include "study/import_file.hpp"
 #include "study/import_text.hpp"
 
 namespace freestand::study {
 namespace {
 
-using Series = std::vector<double>;
 constexpr double longest_offset_s = 0.5;
 constexpr double surely_mirrored = 4;  // times steadier, as more than chance is (timing.hpp)
-
-// A channel of a file, in SI, at the file's own times.
-Series channel(const LabTable& table, const LabColumn& column) {
-  const std::size_t place = table.column(column.name);
-  if (place == table.columns.size()) {
-    std::string names;
-    for (const std::string& name : table.columns) names += (names.empty() ? "" : ", ") + shown(name);
-    throw Error(fmt::format("{} has no column {} (its columns are {}): correct the name", table.file.string(),
-                            shown(column.name), names),
-                Exit::data);
-  }
-  if (std::count(table.columns.begin(), table.columns.end(), column.name) > 1)
-    throw Error(fmt::format("{} has two columns {} (it is not told which is meant): give one another name",
-                            table.file.string(), shown(column.name)),
-                Exit::data);
-  Series values = table.values[place];
-  for (double& value : values) value *= column.factor;
-  return values;
-}
-
-struct File {
-  LabTable table;
-  Series time;
-  double step_s = 0;  // the middle one
-};
-
-File read_file(const LabFile& lab) {
-  File file{read_lab_table(lab.path), {}, 0};
-  file.time = channel(file.table, lab.time);
-  Series steps;
-  for (std::size_t i = 1; i < file.time.size(); ++i) {
-    steps.push_back(file.time[i] - file.time[i - 1]);
-    if (steps.back() <= 0)
-      throw Error(fmt::format("{}:{}: time does not rise (column {}): correct it, or cut the file there",
-                              lab.path.string(), file.table.lines[i], shown(lab.time.name)),
-                  Exit::data);
-  }
-  if (steps.size() < 10)
-    throw Error(fmt::format("{} holds {} rows (a history needs ten and more): give the whole of it", lab.path.string(),
-                            file.time.size()),
-                Exit::data);
-  std::nth_element(steps.begin(), steps.begin() + static_cast<long>(steps.size() / 2), steps.end());
-  file.step_s = steps[steps.size() / 2];
-  return file;
-}
 
 class Importer {
  public:
@@ -211,17 +164,12 @@ class Importer {
           Exit::data);
     const auto count = static_cast<std::size_t>(steps) + 1;
     const auto of = [&](const File& file, const Series& time, const std::optional<LabColumn>& column) {
-      return column ? at_times(time, channel(file.table, *column), start, step_s_, count) : Series{};
+      return column ? at_times(file, time, *column, start, step_s_, count) : Series{};
     };
     TestOfLab t;
     t.start_s = start;
-    // As a floor is taken between its readings (floor_readings.hpp); a gap is filled by a straight line.
-    const bool smooth = is_slow(floor) && !has_gaps(floor);
     const auto of_floor = [&](const std::optional<LabColumn>& column) {
-      if (!smooth || !column) return of(floor, floor.time, column);
-      std::vector<double> places = floor.time;
-      for (double& place : places) place -= start;
-      return measurement::curve_through(places, channel(floor.table, *column), true, step_s_, count);
+      return column ? floor_at_times(floor, *column, start, step_s_, count) : Series{};
     };
     t.floor = of_floor(lab.acceleration);
     t.vertical = of_floor(lab.vertical);
@@ -233,16 +181,6 @@ class Importer {
     t.test.block_acceleration_mps2 = of(response, times, lab.block_acceleration);
     measurement::read_floor(t.test, {lab.id, step_s_, t.floor});
     return t;
-  }
-
-  static bool is_slow(const File& floor) {
-    return measurement::FloorReadings{"", floor.step_s, std::vector<double>(3)}.smooth();
-  }
-
-  static bool has_gaps(const File& file) {
-    for (std::size_t i = 1; i < file.time.size(); ++i)
-      if (file.time[i] - file.time[i - 1] > 1.5 * file.step_s) return true;
-    return false;
   }
 
   // Of the samples as they were written: those between them hide half of it.

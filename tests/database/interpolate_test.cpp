@@ -64,7 +64,7 @@ TEST(Interpolate, BetweenNoneAndSomeTheBandHoldsBoth) {
     const std::array known{Probability{0, 0, 0.004, resolution}, Probability{0.58, 0.49, 0.66, resolution}};
     const Probability p = blend(known, std::array{0.44, 0.56});
     EXPECT_NEAR(p.value, 0.56 * 0.58, 1e-12);
-    if (before > 0) EXPECT_EQ(p.value, before);
+    EXPECT_EQ(p.value, before > 0 ? before : p.value);
     before = p.value;
     EXPECT_EQ(p.lower, 0);
     EXPECT_GE(p.upper, 0.66);

@@ -1,6 +1,7 @@
 // Damage states and capacities that are distributions, against probabilities in closed form.
 #include "study/damage_states.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +11,7 @@
 
 #include "study/known.hpp"
 #include "study_text.hpp"
+#include "support/error_text.hpp"
 
 namespace freestand::study::damage_states_test {
 namespace {
@@ -70,6 +72,11 @@ TEST(DamageStates, ThoseThatHoldForEveryBlockThatOverturnedAreNamed) {
 
 // Beyond every capacity by two demands, their difference is none: a condition must say what an overturned block is.
 TEST(DamageStates, WhatIsDefinedForOverturnedBlocksIsTaken) {
+  for (const char* open : {"peak_slip_m - residual_slip_m > 0.03", "residual_slip_m / peak_slip_m > 0.5"})
+    EXPECT_THAT(freestand::test::error_text(
+                    Exit::usage, [&] { study(fmt::format("  edp: [overturned]\n  damage: {{door: {}}}\n", open)); }),
+                testing::HasSubstr("door is not defined for a block that overturned"))
+        << open;
   EXPECT_NO_THROW(
       study("  edp: [overturned]\n  damage: {a: peak_slip_m - residual_slip_m > 0.03 or overturned, b: peak_slip_m - "
             "residual_slip_m > 0.03 and not overturned, c: peak_slip_m > 0.1 and residual_slip_m > 0.05}\n"));

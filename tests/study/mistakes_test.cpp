@@ -289,8 +289,6 @@ TEST(StudyMistakes, InDamageStates) {
       {state("{when: delta > overturned, parameters: {overturned: 0.1}}"), "5", "cannot be called that"},
       {state("{when: delta > gap, parameters: {gap: wide}}"), "5", "\"wide\""},
       {state("{parameters: {gap: 1}}"), "5", "fragility.damage.door.when is missing"},
-      {state("peak_slip_m - residual_slip_m > 0.03"), "5", "door is not defined for a block that overturned"},
-      {state("residual_slip_m / peak_slip_m > 0.5"), "5", "door is not defined for a block that overturned"},
       {state("{when: delta > 1, wen: 2}"), "5", "unknown key wen"},
       {with_fragility("{edp: [delta], damage: {overturned: delta > 1}}"), "5", "has the name of a demand"},
       {with_fragility("{edp: [delta], damage: {a-b: delta > 1}}"), "5", "is no plain word"},

@@ -10,7 +10,7 @@
 #include "measurement/fit/outcome_fit.hpp"
 #include "measurement/fit/starts.hpp"
 #include "measurement/laboratory/laboratory.hpp"
-#include "measurement/tell/unread_floors.hpp"
+#include "measurement/noise/unread_floors.hpp"
 #include "measurement/verdict/chance_of_peaks.hpp"
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"

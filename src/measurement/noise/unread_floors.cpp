@@ -1,4 +1,4 @@
-#include "measurement/tell/unread_floors.hpp"
+#include "measurement/noise/unread_floors.hpp"
 
 #include <fmt/format.h>
 
