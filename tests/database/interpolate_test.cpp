@@ -78,6 +78,11 @@ TEST(Interpolate, ExtrapolationIsNoSurer) {
   EXPECT_GT(p.upper - p.lower, 0.2);
   EXPECT_LT(p.lower, p.value);
   EXPECT_GT(p.upper, p.value);
+  // Nor does it go by the number of samples of one in which nothing happened.
+  for (const double resolution : {1e-3, 1e-5}) {
+    const std::array none{Probability{0, 0, 0.004, resolution}, Probability{0.58, 0.49, 0.66, resolution}};
+    EXPECT_NEAR(blend(none, std::array{-0.3, 1.3}).value, 1.3 * 0.58, 1e-12);
+  }
 }
 
 TEST(Interpolate, ALognormalGoesOnBeyondThePointsAndTakesItsBandAlong) {
