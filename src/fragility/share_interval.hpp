@@ -37,8 +37,9 @@ struct GroupShare {
 // independent samples bound the reach from below) and 14 that are nearly one sample each (0.940): a share of 14 jumps by 0.07. Exact limits
 // at an effective number of samples (E. Korn & B. Graubard, Survey Methodology 24, 1998) hold it in up to 0.958 there, and with P = 0.03 in
 // 0.80: of one or two records that exceed they take the error for known. Where records are drawn by weights (dispersion
-// 0.5 and 0.8, which have nothing to do with what the records do; P 0.2 and 0.5) 0.874 to 0.912 with 22 to 100 records (before e was that of
-// a record left out); where none hit, each record counts as one all the same. Where P times the number of records is below 1, no interval of
+// 1 and 1.5, or one of 20 with 5 to 60 times the weight of the others, which have nothing to do with what the records do; P 0.1 to 0.8,
+// correlation 0.3 to 0.9) 0.86 to 0.98 with 20 records; where none hit, each record counts as one all the same. With pulses for a quarter to
+// half of the samples, 2 to 44 records that are nearly all or nothing: 0.96 to 1.00. Where P times the number of records is below 1, no interval of
 // counts comes near 0.90 everywhere: most studies see none, one or two records that exceed, and the limit of none holds all P below it.
 // Over 120 settings (14 and 40 records; 25, 140 and 1000 samples a record; 0.1, 0.3, 0.5 and 0.8 records expected to exceed; correlation 0 to
 // 0.95; error 0.004) coverage is 0.80 to 0.99: least with 40 records of 1000 samples, 0.1 of them expected and correlation 0.5 (0.796), most where

@@ -25,6 +25,8 @@ struct Setting {
   int records, each;
   double share, correlation;
   double weights = 0;
+  double heaviest = 1;   // of the first record, times that of the others
+  int of_their_own = 0;  // samples that are motions of their own, in which nothing happens
 };
 
 struct Misses {
@@ -40,17 +42,21 @@ Misses simulate(const Setting& s, int repeats) {
                rest = std::sqrt(1 - s.correlation);
   Misses misses;
   std::vector<GroupShare> groups(static_cast<std::size_t>(s.records));
+  const auto records = groups.size();
+  const double of_record = s.each * (s.records - 1 + s.heaviest),
+               truth = s.share * of_record / (of_record + s.of_their_own);
+  if (s.of_their_own > 0) groups.push_back({static_cast<double>(s.of_their_own), 0});
   for (misses.repeats = 0; misses.repeats < repeats; ++misses.repeats) {
-    for (GroupShare& g : groups) {
+    for (std::size_t i = 0; i < records; ++i) {
       const double p = gsl_cdf_ugaussian_P((z + root * gsl_ran_ugaussian(rng.get())) / rest);
       const auto samples = s.weights > 0
                                ? gsl_ran_poisson(rng.get(), s.each * gsl_ran_lognormal(rng.get(), 0, s.weights))
-                               : static_cast<unsigned>(s.each);
-      g = {static_cast<double>(samples), static_cast<double>(gsl_ran_binomial(rng.get(), p, samples))};
+                               : static_cast<unsigned>(i == 0 ? s.heaviest * s.each : s.each);
+      groups[i] = {static_cast<double>(samples), static_cast<double>(gsl_ran_binomial(rng.get(), p, samples))};
     }
-    const Interval found = share_interval(groups, groups.size(), 0.9);
-    misses.below += s.share < found.lower;
-    misses.above += s.share > found.upper;
+    const Interval found = share_interval(groups, records, 0.9);
+    misses.below += truth < found.lower;
+    misses.above += truth > found.upper;
   }
   return misses;
 }
@@ -69,6 +75,21 @@ void tell(const Setting& s, const Misses& m) {
 void expect_within(const Setting& s, const Misses& m, double least, double most) {
   EXPECT_GE(m.coverage(), least - 3 * m.error()) << text(s, m);
   EXPECT_LE(m.coverage(), most + 3 * m.error()) << text(s, m);
+}
+
+// One record of twenty that outweighs all others, and few records beside pulses. (The first held the truth in 0.37 to 0.52 when each residual
+// was taken from a mean that the record itself makes, the others in 0.54 to 0.72 when each sample of a pulse counted as much as a record.)
+TEST(ShareCoverage, IsKeptByHeavyRecordsAndBesidePulses) {
+  const int repeats = repeats_asked(600);
+  const Setting settings[] = {{20, 16, 0.5, 0.3, 0, 60},     {20, 16, 0.2, 0.6, 0, 60},
+                              {20, 30, 0.3, 0.5, 0, 20},     {4, 188, 0.6, 0.9, 0, 1, 250},
+                              {8, 94, 0.06, 0.9, 0, 1, 250}, {14, 36, 0.95, 0.9, 0, 1, 500},
+                              {44, 11, 0.02, 0.9, 0, 1, 500}};
+  for (const Setting& s : settings) {
+    const Misses m = simulate(s, repeats);
+    tell(s, m);
+    expect_within(s, m, 0.87, 1);
+  }
 }
 
 // Wanted of nominal 90 %: 87 to 93 %, and that is what comes where a record or more is expected to exceed, but for 14 records that are
