@@ -10,7 +10,7 @@ namespace freestand::measurement {
 
 namespace {
 
-// By windows of so many readings, half over one another: that level which a share of them stays below, over what white noise has there.
+// By windows of so many readings, one a stride behind the other: the level that a share of them stays below, over what white noise has there.
 double quiet_level(const std::vector<double>& signal, std::size_t window, std::size_t stride, double share,
                    double of_white_noise) {
   std::vector<double> levels;
@@ -56,7 +56,8 @@ double floor_noise_mps2(const Dataset& data, const Test& test) {
     if (!other.has_history() || other.motion.degree != 1) continue;
     const FloorReadings read = readings_of(other);
     if (!read.smooth()) continue;
-    if (const double noise = slow_noise(read.horizontal_mps2, read.step_s); noise > 0) least = std::min(least, noise);
+    const double noise = slow_noise(read.horizontal_mps2, read.step_s);
+    if (noise > 0 && (least == 0 || noise < least)) least = noise;
   }
   return least;
 }
