@@ -48,18 +48,8 @@ double floor_noise_mps2(const Dataset& data, const Test& test) {
   if (!test.has_history() || test.motion.degree != 1) return 0;
   const double given = data.noise.floor_acceleration_mps2;
   if (given > 0) return given;
-  const FloorReadings own = readings_of(test);
-  if (!own.smooth()) return sensor_noise(own.horizontal_mps2);
-  // One sensor reads the floors of all tests, and where one is never quiet its motion is no noise.
-  double least = slow_noise(own.horizontal_mps2, own.step_s);
-  for (const Test& other : data.tests) {
-    if (!other.has_history() || other.motion.degree != 1) continue;
-    const FloorReadings read = readings_of(other);
-    if (!read.smooth()) continue;
-    const double noise = slow_noise(read.horizontal_mps2, read.step_s);
-    if (noise > 0 && (least == 0 || noise < least)) least = noise;
-  }
-  return least;
+  const FloorReadings read = readings_of(test);
+  return read.smooth() ? slow_noise(read.horizontal_mps2, read.step_s) : sensor_noise(read.horizontal_mps2);
 }
 
 }  // namespace freestand::measurement

@@ -15,8 +15,7 @@ double sensor_noise(const std::vector<double>& signal);
 // the motion itself, and what is quiet may be short.
 double slow_noise(const std::vector<double>& signal, double step_s);
 
-// Of the floor's acceleration under a test [m/s2]: as stated, or else by the above, of slow ones the least of all tests; 0 of a pulse, and
-// of tests without histories.
+// Of the floor's acceleration under a test [m/s2]: as stated, or else by the above; 0 of a pulse, and of tests without histories.
 double floor_noise_mps2(const Dataset&, const Test&);
 
 }  // namespace freestand::measurement
