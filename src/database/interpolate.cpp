@@ -61,19 +61,14 @@ Probability blend(std::span<const Probability> known, std::span<const double> we
   const auto none = [&](const Probability& p) { return p.value <= resolution; };
   const auto all = [&](const Probability& p) { return p.value >= 1 - resolution; };
   const auto every = [&](auto&& is) { return std::all_of(known.begin(), known.end(), is); };
-  const auto any = [&](auto&& is) {
+  const auto any = [&](auto&& is, bool negative_too = false) {
     for (std::size_t i = 0; i < known.size(); ++i)
-      if (weights[i] > 0 && is(known[i])) return true;
-    return false;
-  };
-  const auto some = [&](auto&& is) {
-    for (std::size_t i = 0; i < known.size(); ++i)
-      if (weights[i] != 0 && is(known[i])) return true;
+      if ((weights[i] > 0 || (negative_too && weights[i] < 0)) && is(known[i])) return true;
     return false;
   };
   // Between one that never happened, or always did, and one that did sometimes, Phi^-1 tells how many samples there were, and not where
   // between them the change begins.
-  const bool mixed = (some(none) && !every(none)) || (some(all) && !every(all));
+  const bool mixed = (any(none, true) && !every(none)) || (any(all, true) && !every(all));
   // Of weights below zero, which extrapolate, the opposite end.
   const auto mean = [&](double Probability::*end, double Probability::*opposite) {
     const auto of = [&](std::size_t i) { return known[i].*(weights[i] < 0 ? opposite : end); };

@@ -42,6 +42,14 @@ double of_parts(const Curve& curve, double im) {
 
 }  // namespace
 
+Curve lognormal(double median, double dispersion) {
+  Curve curve;
+  curve.form = Form::lognormal;
+  curve.median = median;
+  curve.dispersion = dispersion;
+  return curve;
+}
+
 double probability(const Curve& curve, double im) {
   if (curve.form == Form::lognormal)
     return im > 0 ? fragility::normal_cdf(std::log(im / curve.median) / curve.dispersion) : 0;

@@ -31,6 +31,8 @@ struct Curve {
   double ln_capacity = median;                                                    // parts
 };
 
+Curve lognormal(double median, double dispersion);
+
 // A lognormal is 0 at im <= 0; points are constant below the first and above the last.
 double probability(const Curve&, double im);
 

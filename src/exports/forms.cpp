@@ -72,9 +72,7 @@ bool borrow_lognormals(std::vector<PartsPoint>& parts) {
 // `risk` goes by: the lognormal where that is adequate.
 void measure_lines(LimitState& state, const std::vector<double>& places) {
   constexpr int checked = 400;
-  Curve lognormal;
-  lognormal.form = Form::lognormal;
-  lognormal.median = state.fitted.median, lognormal.dispersion = state.fitted.dispersion;
+  const Curve fitted = lognormal(state.fitted.median, state.fitted.dispersion);
   double of_lines[3] = {}, of_curve[3] = {};
   for (int i = 0; i <= checked; ++i) {
     const double im = places.front() * std::pow(places.back() / places.front(), i / static_cast<double>(checked));
@@ -83,7 +81,7 @@ void measure_lines(LimitState& state, const std::vector<double>& places) {
     for (int k = 0; k < 3; ++k) {
       const double events = std::pow(im / places.front(), -(k + 1));
       of_lines[k] += line * events;
-      of_curve[k] += (state.fitted.adequate ? probability(lognormal, im) : curve) * events;
+      of_curve[k] += (state.fitted.adequate ? probability(fitted, im) : curve) * events;
     }
   }
   for (int k = 0; k < 3; ++k)
@@ -129,9 +127,7 @@ Refusal make_lognormal(LimitState& state, const Wanted& wanted) {
   if (!fitted.adequate)
     return fmt::format("the lognormal of {} is not adequate (it may be off by {:.2g}): use --form discrete",
                        label(wanted), fitted.off_by);
-  state.curve.form = Form::lognormal;
-  state.curve.median = fitted.median;
-  state.curve.dispersion = fitted.dispersion;
+  state.curve = lognormal(fitted.median, fitted.dispersion);
   state.why = fmt::format("the fitted lognormal is off by at most {:.2g}", fitted.off_by);
   return {};
 }

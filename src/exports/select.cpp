@@ -341,14 +341,12 @@ fragility::FragilityFunction by_cells(const fragility::FragilityFunction& f, con
   known.im_least = f.im_least, known.im_most = f.im_most;
   known.cell_im = f.cell_im, known.cell_n = f.cell_n, known.cell_share = f.cell_share;
   if (!known.cell_share.empty() || !(f.dispersion > 0)) return known;
-  Curve lognormal;
-  lognormal.form = Form::lognormal;
-  lognormal.median = f.median, lognormal.dispersion = f.dispersion;
+  const Curve fitted = lognormal(f.median, f.dispersion);
   for (std::size_t i = 0; i < result.cell_im.size(); ++i) {
     if (result.cell_n[i] == 0) continue;
     known.cell_im.push_back(result.cell_im[i]);
     known.cell_n.push_back(static_cast<double>(result.cell_n[i]));
-    known.cell_share.push_back(result.cell_im[i] > 0 ? probability(lognormal, result.cell_im[i]) : 0);
+    known.cell_share.push_back(result.cell_im[i] > 0 ? probability(fitted, result.cell_im[i]) : 0);
   }
   return known;
 }

@@ -39,8 +39,8 @@ FloorMotion read_record(const std::filesystem::path& path, const ReadOptions& op
 // What is known of the direction of the channel that these options choose.
 struct Direction {
   std::string vertical;  // the sign of a vertical one, in words; empty: horizontal
-  bool down =
-      false;  // positive downwards in the file, and read so by read_record(): channels that are called vertical are not
+  // Positive downwards in the file, and read so by read_record(): channels that are called vertical are turned over there.
+  bool down = false;
 };
 Direction direction_of(const std::filesystem::path& path, const ReadOptions& options = {});
 

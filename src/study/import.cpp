@@ -257,16 +257,16 @@ class Importer {
       if (column) tell_unit(lab, *column, response.table);
   }
 
-  // Rows that are missing: steps of more than one and a half of the usual one. Between their ends the channels go straight.
+  // Between the ends of a gap the channels go straight.
   void tell_gaps(const LabTest& lab, const File& file, const LabFile& of) {
     std::vector<std::string> gaps;
     std::size_t count = 0;
     constexpr std::size_t most_told = 5;
     for (std::size_t i = 1; i < file.time.size(); ++i) {
-      const double step = file.time[i] - file.time[i - 1];
-      if (step <= 1.5 * file.step_s) continue;
+      if (!is_behind_gap(file, i)) continue;
       if (++count <= most_told)
-        gaps.push_back(fmt::format("{:.4g} s before line {} (at {:.4g} s)", step, file.table.lines[i], file.time[i]));
+        gaps.push_back(fmt::format("{:.4g} s before line {} (at {:.4g} s)", file.time[i] - file.time[i - 1],
+                                   file.table.lines[i], file.time[i]));
     }
     if (count > 0)
       say(fmt::format("{}: {} has {} gap{} in its rows, filled by straight lines: {}{}", lab.id,
@@ -314,9 +314,9 @@ class Importer {
     if (own_s < 1.01 * step_s_) return;  // a clock's rounding, and half a percent of noise
     slow_floor_s_ = own_s;
     const double given = lab_.noise.floor_acceleration_mps2;
-    const double own = given > 0        ? given
-                       : is_slow(floor) ? measurement::slow_noise(channel(floor.table, lab.acceleration), floor.step_s)
-                                        : noise_of(floor, lab.acceleration, given);
+    const bool heard = given <= 0 && measurement::is_smooth(floor.step_s);
+    const double own = heard ? measurement::slow_noise(channel(floor.table, lab.acceleration), floor.step_s)
+                             : noise_of(floor, lab.acceleration, given);
     const double noise = std::sqrt(own_s / step_s_) * own;
     // The least of the tests, as one sensor reads them.
     slow_floor_noise_ = slow_floor_noise_ > 0 ? std::min(slow_floor_noise_, noise) : noise;

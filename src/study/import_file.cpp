@@ -11,10 +11,10 @@
 namespace freestand::study {
 namespace {
 
-bool has_gaps(const File& file) {
-  for (std::size_t i = 1; i < file.time.size(); ++i)
-    if (file.time[i] - file.time[i - 1] > 1.5 * file.step_s) return true;
-  return false;
+Series curve_at(const File& file, Series places, const LabColumn& column, bool smooth, double start, double step_s,
+                std::size_t count) {
+  for (double& place : places) place -= start;
+  return measurement::curve_through(places, channel(file.table, column), smooth, step_s, count);
 }
 
 }  // namespace
@@ -57,22 +57,19 @@ File read_file(const LabFile& lab) {
   return file;
 }
 
-bool is_slow(const File& floor) {
-  return measurement::FloorReadings{"", floor.step_s, std::vector<double>(3)}.smooth();
+bool is_behind_gap(const File& file, std::size_t row) {
+  return row > 0 && file.time[row] - file.time[row - 1] > 1.5 * file.step_s;
 }
 
 Series at_times(const File& file, const Series& time, const LabColumn& column, double start, double step_s,
                 std::size_t count) {
-  Series places = time;
-  for (double& place : places) place -= start;
-  return measurement::curve_through(places, channel(file.table, column), false, step_s, count);
+  return curve_at(file, time, column, false, start, step_s, count);
 }
 
 Series floor_at_times(const File& floor, const LabColumn& column, double start, double step_s, std::size_t count) {
-  Series places = floor.time;
-  for (double& place : places) place -= start;
-  return measurement::curve_through(places, channel(floor.table, column), is_slow(floor) && !has_gaps(floor), step_s,
-                                    count);
+  bool smooth = measurement::is_smooth(floor.step_s);
+  for (std::size_t row = 0; row < floor.time.size(); ++row) smooth = smooth && !is_behind_gap(floor, row);
+  return curve_at(floor, floor.time, column, smooth, start, step_s, count);
 }
 
 }  // namespace freestand::study

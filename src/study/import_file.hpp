@@ -22,8 +22,8 @@ File read_file(const LabFile&);
 // A channel, in SI, at the file's own times. Throws Error (Exit::data) where there is none of that name, or two.
 Series channel(const LabTable&, const LabColumn&);
 
-// Is the floor read more than 5 ms apart? Then it is smooth between its readings (floor_readings.hpp).
-bool is_slow(const File& floor);
+// Are rows missing before this one? Its step is more than one and a half of the usual one.
+bool is_behind_gap(const File&, std::size_t row);
 
 // A channel at start, start + step, ...: between its samples on straight lines; of a floor as it is taken between its readings, but for
 // files with gaps, which straight lines fill.

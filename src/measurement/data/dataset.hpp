@@ -49,8 +49,9 @@ struct Test {
   Dimensions specimen;  // the data set's, with the test's own over it
   Start start;          // how the specimen was when the floor began to move
   FloorMotion motion;   // as measured; or a pulse of unit peak acceleration and unit period
-  int pieces_a_reading =
-      1;               // straight ones of the motion, from one reading of the floor to the next (floor_readings.hpp)
+  // Straight ones of the motion, from one reading of the floor to the next (floor_readings.hpp).
+  int pieces_a_reading = 1;
+
   double scale = 1;    // on the motion
   double stretch = 1;  // of time: the period of a pulse
   std::string pulse;   // its name; empty: a measured motion

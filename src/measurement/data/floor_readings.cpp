@@ -13,8 +13,12 @@ namespace {
 
 constexpr double longest_straight_s = 0.005, rounding = 1e-6;  // a step may be 0.005 s to six digits
 
+int pieces_of(double step_s) {
+  return std::max(1, static_cast<int>(std::ceil(step_s / longest_straight_s - rounding)));
+}
+
 std::vector<double> in_pieces(const std::vector<double>& readings, int pieces) {
-  if (pieces == 1 || readings.size() < 3) return readings;
+  if (pieces == 1 || readings.empty()) return readings;
   std::vector<double> places;
   for (std::size_t i = 0; i < readings.size(); ++i) places.push_back(static_cast<double>(i));
   const std::size_t count = (readings.size() - 1) * static_cast<std::size_t>(pieces) + 1;
@@ -31,10 +35,9 @@ std::vector<double> every(int so_many, const std::vector<double>& values) {
 
 }  // namespace
 
-int FloorReadings::pieces() const {
-  return horizontal_mps2.size() < 3 ? 1
-                                    : std::max(1, static_cast<int>(std::ceil(step_s / longest_straight_s - rounding)));
-}
+bool is_smooth(double step_s) { return pieces_of(step_s) > 1; }
+
+int FloorReadings::pieces() const { return horizontal_mps2.size() < 3 ? 1 : pieces_of(step_s); }
 
 FloorReadings readings_of(const Test& test) {
   const FloorMotion& motion = test.motion;

@@ -12,12 +12,15 @@
 
 namespace freestand::measurement {
 
+// Is a floor whose readings are so far apart a curve between them?
+bool is_smooth(double step_s);
+
 struct FloorReadings {
   std::string name;
   double step_s = 0;
   std::vector<double> horizontal_mps2, vertical_mps2 = {};  // vertical: empty where it was not read
 
-  int pieces() const;  // from one reading to the next: 1 where the floor is straight there
+  int pieces() const;  // from one reading to the next: 1 where the floor is straight there, or too short for a curve
   bool smooth() const { return pieces() > 1; }
 };
 

@@ -125,8 +125,9 @@ struct Beside {
     return sum / weights(scatter2);
   }
   double chi_square(double scatter2) const {
+    const double middle = mean(scatter2);
     double sum = 0;
-    for (std::size_t i = 0; i < ln.size(); ++i) sum += weight(i, scatter2) * std::pow(ln[i] - mean(scatter2), 2);
+    for (std::size_t i = 0; i < ln.size(); ++i) sum += weight(i, scatter2) * std::pow(ln[i] - middle, 2);
     return sum;
   }
   // At which chi square is its degrees of freedom (Paule & Mandel, J. Res. NBS 87, 1982); 0 where the noise explains all.

@@ -13,7 +13,7 @@ std::string told_of_unread(const std::vector<UnreadFloor>& floors) {
   if (!worst) return "";
   return fmt::format(
       "the floor of test {} was read every {:.3g} s: what it did between its readings may change the history by {:.2g} "
-      "times the noise, which is allowed for; read it more often",
+      "times the noise, which bands and chances allow for; read it more often",
       worst->test->id, readings_of(*worst->test).step_s, worst->unread);
 }
 
