@@ -21,6 +21,8 @@ constexpr std::size_t least_folds = 5;
 constexpr int least_hits = 10;
 // A line through fewer leaves nothing for its error; with n of them Student's t of n - 2 degrees of freedom says what they prove.
 constexpr int least_motions = 3;
+// Relative, of what sums leave.
+constexpr double round_off = 1e-9;
 
 // Sums of x, y over a set of samples, as reals.
 struct Sums {
@@ -273,14 +275,22 @@ void order(RankedDemand& demand, std::vector<Jackknifed> figures) {
     const bool known_a = std::isfinite(figures[a].all), known_b = std::isfinite(figures[b].all);
     return known_a != known_b ? known_a : known_a && better * figures[a].all < better * figures[b].all;
   });
+  // One that is another times a constant differs from it by round-off alone: of such the one that was given first is the best.
+  const double least = figures[place.front()].all;
+  const auto is_the_best = [&](std::size_t i) {
+    return std::abs(figures[i].all - least) <= round_off * std::abs(least);
+  };
+  const auto behind = std::stable_partition(place.begin(), place.end(), is_the_best);
+  std::sort(place.begin(), behind);
   const Jackknifed& best = figures[place.front()];
   std::vector<RankedIm> sorted;
   for (const std::size_t i : place) {
     RankedIm& im = sorted.emplace_back(std::move(demand.ims[i]));
     im.value = figures[i].all;
     im.value_se = error_of(figures[i].without.size(), [&](std::size_t f) { return figures[i].without[f]; });
-    im.behind = better * (figures[i].all - best.all) + 0.0;  // no -0
-    im.behind_se = i == place.front() ? 0 : error_of(figures[i].without.size(), [&](std::size_t f) {
+    const bool equal = i == place.front() || is_the_best(i);
+    im.behind = equal ? 0 : better * (figures[i].all - best.all);
+    im.behind_se = equal ? 0 : error_of(figures[i].without.size(), [&](std::size_t f) {
       return figures[i].without[f] - best.without[f];
     });
   }

@@ -75,6 +75,24 @@ TEST(Ranking, TheIntensityThatTheDemandFollowsComesFirstAndClearly) {
 }
 
 // The line through the same numbers, by the formulas of a textbook.
+// Of two that differ by a constant neither foretells better: round-off had put either first, and some clearly.
+TEST(Ranking, AnIntensityTimesAConstantIsAsGood) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    RankingTally tally(options({"plain", "in other units"}, true, 1));
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const double im = std::exp(normal(seed, i, 10)), over = im > 2 + normal(seed, i, 20);
+      const double ims[] = {im, 2.54 * im}, edps[] = {im * std::exp(0.2 * normal(seed, i, 30)), over};
+      tally.add({i, 0, over > 0, 1.0, ims, edps});
+    }
+    for (const RankedDemand& demand : rank(tally)) {
+      ASSERT_EQ(demand.ims.size(), 2u);
+      EXPECT_EQ(demand.ims[0].im, "plain") << demand.edp << " " << seed;
+      EXPECT_EQ(demand.ims[1].behind, 0) << demand.edp << " " << seed;
+      EXPECT_EQ(demand.ims[1].behind_se, 0) << demand.edp << " " << seed;
+    }
+  }
+}
+
 TEST(Ranking, ScatterAndSlopeAreThoseOfALeastSquaresLine) {
   const std::uint64_t seed = 4;
   const std::vector<RankedDemand> ranked = rank(made(2, {}, seed));
