@@ -49,6 +49,24 @@ TEST(Decide, AnEffectThatGainsLessThanReplaysOfTheBaseStrayIsNotMissing) {
   EXPECT_TRUE(d.effects.empty());
 }
 
+// Friction 0.0002 off led a chaotic rocking where it was measured to go, which was said to be wear.
+TEST(Decide, AnEffectThatHelpsOnlyWhereTheFloorsNoiseTurnsItsHistoryIsNotNamed) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  Questions ask = by_misfit();
+  ask.steady = [](const Candidate& c) {
+    return chance(steady_question, c.effects[0] == "friction_wear" ? 0.5 : 0.001);
+  };
+  const auto wear = candidate(bench, {"friction_wear"}, 1.1, 1.0);
+  const Diagnosis alone = decided_among(bench, {wear}, ask);
+  EXPECT_EQ(alone.verdict, Verdict::unknown);
+  EXPECT_TRUE(alone.effects.empty());
+  EXPECT_EQ(alone.candidates[0].remark, by_luck);
+  EXPECT_NE(alone.sentences[0].find("but for friction_wear"), std::string::npos) << alone.sentences[0];
+  const Diagnosis beside = decided_among(bench, {wear, candidate(bench, {"reduced_base"}, 1.2, 1.0)}, ask);
+  EXPECT_EQ(beside.effects, std::vector<std::string>{"reduced_base"});
+}
+
 // Static friction was hidden (mu_s/mu_k 1.51). The misfit that allows for the floor's noise prefers rate weakening by 60, the tests left
 // out prefer static friction: nobody may be named alone.
 TEST(Decide, NoEffectIsNamedAloneOverOneThatMissesTheTestsLeftOutByLess) {

@@ -28,7 +28,8 @@ inline Questions by_misfit() {
                 return chance(misfit_question,
                               gsl_cdf_ugaussian_Q((c.misfit_of_fit - samples) / std::sqrt(2 * samples)));
               },
-          .another = [](const Candidate&) { return chance(another_question, 0.001); }};
+          .another = [](const Candidate&) { return chance(another_question, 0.001); },
+          .steady = [](const Candidate&) { return chance(steady_question, 0.001); }};
 }
 
 inline Dataset cabinet_tests() {

@@ -24,7 +24,8 @@ double least_misfit(const Diagnosis&);
 inline constexpr const char *odd_numbers = "with numbers that are not met in practice",
                             *needless_effects = "with more effects, whose gain may be chance",
                             *no_closer =
-                                "with numbers that bring the fit to all tests no closer, the floor's noise allowed for";
+                                "with numbers that bring the fit to all tests no closer, the floor's noise allowed for",
+                            *by_luck = "by a history that the floor's noise alone turns elsewhere";
 
 // Orders the candidates, with the best of them first, and marks their differences to it. none: as they are, of the base.
 void put_in_order(const Bench&, const Candidate* best, Diagnosis&);

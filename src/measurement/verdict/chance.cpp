@@ -141,7 +141,8 @@ std::vector<Tried> at_strengths(const ModelFit& base, const std::vector<const Mo
 }
 
 Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& base,
-                      const std::vector<const ModelFit*>& tried, const Jobs& jobs, const AsStated* stated) {
+                      const std::vector<const ModelFit*>& tried, const Jobs& jobs, const AsStated* stated,
+                      std::size_t tries) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   const std::vector<Tried> all = at_strengths(base, tried);
   const AsStated known = stated ? *stated : AsStated{.model = base.model, .x = base.x, .names = {}, .is_off = {}};
@@ -182,22 +183,34 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
   measured.segment(p - deviate, deviate) -= deviations(known);
   Chance chance{.question = help_question, .about = {}, .observed = largest_gain(measured)};
   const NoiseDraws noise(sum, bench);
-  weigh(chance, [&](std::uint64_t s) {
-    VectorXd z = noise.draw(s);
-    for (Index d = 0; d < deviate; ++d)
-      z += sum.gram.col(p - deviate + d) * standard_normal(s, (1ULL << 41) + static_cast<std::uint64_t>(d));
-    return largest_gain(z);
-  });
+  weigh(
+      chance,
+      [&](std::uint64_t s) {
+        VectorXd z = noise.draw(s);
+        for (Index d = 0; d < deviate; ++d)
+          z += sum.gram.col(p - deviate + d) * standard_normal(s, (1ULL << 41) + static_cast<std::uint64_t>(d));
+        return largest_gain(z);
+      },
+      tries);
   return chance;
 }
 
-void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
+Chance chance_of_steady_gain(const Bench& bench, const ModelFit& base, const ModelFit& with, std::size_t tries,
+                             const Jobs& jobs, double friction_scatter) {
+  const Judge judge(bench, with.model, with.x, jobs, fanned_out, friction_scatter);
+  Chance chance = chance_of_gain(bench, judge, base, {&with}, jobs, nullptr, tries);
+  chance.question = steady_question;
+  return chance;
+}
+
+void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw, std::size_t tries) {
   std::vector<double> made;
   for (std::uint64_t s = 0; s < chance_simulations; ++s) made.push_back(draw(s));
   const auto more = std::count_if(made.begin(), made.end(), [&](double m) { return m >= chance.observed; });
   chance.simulations = static_cast<int>(chance_simulations);
-  chance.p = (1 + static_cast<double>(more)) / (1 + static_cast<double>(made.size()));
-  const auto place = made.begin() + static_cast<long>((1 - chance_level) * static_cast<double>(made.size()));
+  const auto of = static_cast<double>(tries), all = static_cast<double>(made.size());
+  chance.p = std::min(1.0, of * (1 + static_cast<double>(more)) / (1 + all));
+  const auto place = made.begin() + static_cast<long>((1 - chance_level / of) * all);
   std::nth_element(made.begin(), place, made.end());
   chance.usual = *place;
 }

@@ -16,7 +16,8 @@
 namespace freestand::measurement {
 
 inline constexpr const char *help_question = "does an effect help", *lead_question = "is the lead chance",
-                            *misfit_question = "is it enough", *another_question = "does one more help";
+                            *misfit_question = "is it enough", *another_question = "does one more help",
+                            *steady_question = "does it help before the floor's noise turns the history";
 
 struct Chance {
   std::string question, about;  // one of these, and which effects
@@ -37,8 +38,9 @@ struct Chance {
 inline constexpr std::uint64_t chance_simulations =
     2000;  // a p value of 0.05 is known to 0.005 (one standard deviation)
 
-// Of data made again and again, draw(s) saying what is asked of the s-th: p, and the value that chance reaches in one of twenty.
-void weigh(Chance&, const std::function<double(std::uint64_t s)>& draw);
+// Of data made again and again, draw(s) saying what is asked of the s-th: p, and the value that chance reaches in one of twenty. tries: what
+// is asked about is the best of so many, of which each may reach it (Bonferroni).
+void weigh(Chance&, const std::function<double(std::uint64_t s)>& draw, std::size_t tries = 1);
 // Of a lead that was weighed: draw(s) saying what the best leads by in data from itself.
 void weigh_power(Chance&, const std::function<double(std::uint64_t s)>& draw);
 
@@ -55,7 +57,13 @@ std::vector<Tried> at_strengths(const ModelFit& base, const std::vector<const Mo
 // numbers first.
 // stated: of the base; then the gain is that beyond what deviations from what is stated make, in the data and in those from the base.
 Chance chance_of_gain(const Bench&, const Judge&, const ModelFit& base, const std::vector<const ModelFit*>& tried,
-                      const Jobs&, const AsStated* stated = nullptr);
+                      const Jobs&, const AsStated* stated = nullptr, std::size_t tries = 1);
+
+// Does an effect, the best of so many tries, help where its own history does not hang on the floor's noise? A rocking that noise turns
+// elsewhere is met by some of the many numbers that fits try, whatever the effect: the gain by the readings that replays of the effect's own
+// model do not fan out.
+Chance chance_of_steady_gain(const Bench&, const ModelFit& base, const ModelFit& with, std::size_t tries, const Jobs&,
+                             double friction_scatter);
 
 // Can the best be told from a rival? The lead of the best, G of the rival less G of the best, against the lead that it has
 // in data from the rival. judge: of the best.

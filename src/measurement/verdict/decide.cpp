@@ -77,7 +77,7 @@ class Decision {
       if (c.rival || !fitted_to_the_end(c) || c.effects == best.effects) continue;
       const bool odd = !c.practical && c.effects.size() <= best.effects.size() && !brings_nothing(c);
       if (odd ? !as_good(best, c) : !is_ahead(c, best)) continue;
-      c.remark = odd ? odd_numbers : brings_nothing(c) ? no_closer : needless_effects;
+      c.remark = odd ? odd_numbers : brings_nothing(c) ? no_closer : was_luck(c) ? by_luck : needless_effects;
       told[c.remark].push_back(fmt::format("{} ({})", joined(c.effects), three_digits(left_out(c))));
     }
     std::string text;
@@ -230,7 +230,15 @@ class Decision {
     const bool gains = d_.base.misfit_of_fit - best.misfit_of_fit > gain_of_chance();
     // What is stated wrongly is one of few, and takes a model to the noise that is refuted as it stands: it need not also gain more than
     // the effects do in data that fan out.
-    return best.laboratory ? (gains || !enough(d_.base)) && enough(best) : help() ? !help()->chance() : gains;
+    if (best.laboratory) return (gains || !enough(d_.base)) && enough(best);
+    return (help() ? !help()->chance() : gains) && !helps_by_luck(best);
+  }
+  bool helps_by_luck(const Candidate& c) {
+    return chance_of(steady_question, whole(c), [&] { return ask_.steady(c); });
+  }
+  bool was_luck(const Candidate& c) const {
+    const Chance* chance = told_of(steady_question, whole(c));
+    return chance && chance->chance();
   }
   // On tests left out, by what the table shows.
   bool is_missed_like_base(const Candidate& c) const {
@@ -374,10 +382,22 @@ class Decision {
       d_.reason = Reason::none_helps;
       say(fmt::format(
           "the model misses the measurements by {:.3g} where noise explains 1, and no effect of the "
-          "catalogue {}: look at the recovered force",
+          "catalogue {}{}: look at the recovered force",
           d_.base.explained,
-          help() && !help()->chance() ? "predicts the tests left out any better" : "lowers that by more than chance"));
+          help() && !help()->chance() ? "predicts the tests left out any better" : "lowers that by more than chance",
+          but_by_luck()));
     }
+  }
+
+  // What predicts the tests left out better than the base does, and no effect need be there for that.
+  std::string but_by_luck() {
+    std::vector<std::string> names;
+    for (Candidate& c : d_.candidates)
+      if (was_luck(c) && is_ahead(c, d_.base)) {
+        c.remark = by_luck;
+        names.push_back(fmt::format("{} ({})", joined(c.effects), three_digits(left_out(c))));
+      }
+    return names.empty() ? "" : fmt::format(", but for {}, {}", fmt::join(names, ", "), by_luck);
   }
 
   const Bench& bench_;

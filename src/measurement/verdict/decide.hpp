@@ -1,7 +1,8 @@
 // From fitted candidates to a verdict. Constants: levels.hpp. Histories and peaks in the same steps:
 //
 //   helps     the largest gain of all effects tried is more than data from the base would give
-//   best      of one effect the candidate that misses least, of those that miss the tests left out by less than the base.
+//   best      of one effect the candidate that misses least, of those that miss the tests left out by less than the base, and not merely
+//             by a history that the floor's noise turns elsewhere.
 //             It gives way to a larger one, or one with odd numbers, only where that misses the tests left out by less, its
 //             lead is more than data from the smaller would give it, and so is the gain of one more effect, among all
 //             that may join
@@ -24,6 +25,7 @@ struct Questions {
   std::function<Chance(const Candidate& best, const Candidate& rival)> lead;
   std::function<Chance(const Candidate&)> enough;   // histories
   std::function<Chance(const Candidate&)> another;  // histories: does one more effect help beside these?
+  std::function<Chance(const Candidate&)> steady;   // histories: does it help where its own replays do not fan out?
 };
 
 // May an effect help, by Diagnosis::chances? Yes where that was not asked.

@@ -120,9 +120,8 @@ class Diagnoser : PairSearch {
   void tell_deviations() {
     if (kind_of_set(bench_) != Kind::history || !out_.best || out_.effects.empty()) return;
     const Candidate& c = out_.candidates[*out_.best];
-    const Judge judge = judge_of(c.fit);
-    if (c.laboratory || chance_as_stated(judge, c.fit).chance()) return;
-    if (const std::string off = most_off(stated_beside(judge, c.fit)); !off.empty())
+    if (c.laboratory || chance_as_stated(judge_of(c.fit), c.fit).chance()) return;
+    if (const std::string off = most_off(stated_beside(c.fit).stated); !off.empty())
       out_.sentences.push_back(
           fmt::format("beside {} the tests are judged by what suits them best within the tolerances of what is stated, "
                       "above all as if {}: measure that again",
@@ -150,8 +149,7 @@ class Diagnoser : PairSearch {
     if (kind_of_set(bench_) != Kind::history || enough(out_.base.fit)) return {};
     for (const Candidate& c : out_.candidates)
       if (c.visible && c.fit.left_out_refitted && enough(c.fit)) return {};
-    const Judge judge = judge_of(out_.base.fit);
-    const AsStated stated = stated_beside(judge, out_.base.fit);
+    const auto& [stated, judge] = stated_beside(out_.base.fit);
     const std::string off = most_off(stated);
     if (off.empty() || !chance_of_misfit(bench_, judge, out_.base.fit, stated.misfit).chance()) return {};
     return fmt::format(
@@ -168,14 +166,23 @@ class Diagnoser : PairSearch {
     };
     decide(bench_, out_,
            {lead, [&](const Candidate& c) { return chance_of_misfit_of(c.fit); },
-            [&](const Candidate& c) { return chance_of_another(c); }});
+            [&](const Candidate& c) { return chance_of_another(c); },
+            [&](const Candidate& c) {
+              return chance_of_steady_gain(bench_, out_.base.fit, c.fit, tried_alone().size(), jobs_,
+                                           out_.friction_scatter);
+            }});
+  }
+
+  std::vector<const ModelFit*> tried_alone() const {
+    std::vector<const ModelFit*> tried;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && !c.laboratory && c.effects.size() == 1) tried.push_back(&c.fit);
+    return tried;
   }
 
   // Does any effect help? And, of histories, would a friction or a clock of its own in each test do as well?
   void look_for_chance() {
-    std::vector<const ModelFit*> tried;
-    for (const Candidate& c : out_.candidates)
-      if (c.visible && !c.laboratory && c.effects.size() == 1) tried.push_back(&c.fit);
+    const std::vector<const ModelFit*> tried = tried_alone();
     const auto keep = [&](Chance chance) {
       chance.about = fmt::format("{} effects", tried.size());
       out_.chances.push_back(std::move(chance));
@@ -237,7 +244,7 @@ class Diagnoser : PairSearch {
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
     const Judge judge = judge_of(known.fit);
     OwnNumbers own = own_friction(bench_, judge, known.fit, jobs_);
-    const double least = stated_beside(judge, known.fit).misfit - chance_of_another(known).observed;
+    const double least = stated_beside(known.fit).stated.misfit - chance_of_another(known).observed;
     look_at_clocks(judge, known, std::min(least, own.misfit));
     if (!clocks_at_fault_.empty() || !explain_tests(own, total(judge.samples()), least)) return false;
     out_.friction_scatter = own.scatter;

@@ -89,8 +89,10 @@ const Candidate& EffectSearch::best() const {
   return *found;
 }
 
-Judge EffectSearch::judge_of(const ModelFit& fit) const {
-  return {bench_, fit.model, fit.x, jobs_, every_sample, out_.friction_scatter};
+Judge EffectSearch::judge_of(const ModelFit& fit) const { return judge_of(fit.model, fit.x); }
+
+Judge EffectSearch::judge_of(const ModelSpec& model, const Values& x) const {
+  return {bench_, model, x, jobs_, every_sample, out_.friction_scatter};
 }
 
 Chance EffectSearch::chance_as_stated(const Judge& judge, const ModelFit& fit) const {
@@ -101,14 +103,22 @@ Chance EffectSearch::chance_of_misfit_of(const ModelFit& fit) const {
   const Judge judge = judge_of(fit);
   const Chance plain = chance_as_stated(judge, fit);
   if (plain.chance() || fit.model.effects.size() == base_.effects.size()) return plain;
-  Chance allowed = chance_of_misfit(bench_, judge, fit, stated_beside(judge, fit).misfit);
+  const Deviated& deviated = stated_beside(fit);
+  Chance allowed = chance_of_misfit(bench_, deviated.judge, fit, deviated.stated.misfit);
   allowed.within_tolerances = allowed.chance();
   return allowed;
 }
 
-AsStated EffectSearch::stated_beside(const Judge& judge, const ModelFit& fit) const {
-  const auto known = deviated_.find(effects_of(fit, base_));
-  return as_stated(bench_, judge, fit, jobs_, known == deviated_.end() ? std::vector<ModelFit>{} : known->second);
+const EffectSearch::Deviated& EffectSearch::stated_beside(const ModelFit& fit) const {
+  const std::vector<std::string> effects = effects_of(fit, base_);
+  const std::tuple asked(effects, fit.x, out_.friction_scatter);
+  if (const auto known = beside_.find(asked); known != beside_.end()) return known->second;
+  const auto found = deviated_.find(effects);
+  const AsStated first =
+      as_stated(bench_, judge_of(fit), fit, jobs_, found == deviated_.end() ? std::vector<ModelFit>{} : found->second);
+  Judge judge = judge_of(first.model, first.x);
+  AsStated stated = as_stated(bench_, judge, fit, jobs_, {{.model = first.model, .x = first.x}});
+  return beside_.emplace(asked, Deviated{std::move(stated), std::move(judge)}).first->second;
 }
 
 bool EffectSearch::look_for_deviations(const Candidate& c) {
@@ -120,6 +130,7 @@ bool EffectSearch::look_for_deviations(const Candidate& c) {
     tasks.back().starts = starts_from({c.fit.x}, tasks.back().model, points);
   }
   deviated_[c.effects] = fit_models(bench_, tasks, quick(), jobs_);
+  beside_.clear();
   return !tasks.empty();
 }
 
@@ -139,8 +150,7 @@ Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
   std::vector<const ModelFit*> tried;
   for (const ModelFit& fit : fits) tried.push_back(&fit);
   if (tried.empty()) return {.question = another_question, .about = {}};
-  const Judge judge = judge_of(without);
-  const AsStated stated = stated_beside(judge, without);
+  const auto& [stated, judge] = stated_beside(without);
   Chance chance = chance_of_gain(bench_, judge, without, tried, jobs_, &stated);
   chance.question = another_question;
   return chance;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <tuple>
 
 #include "measurement/laboratory/as_stated.hpp"
 #include "measurement/verdict/diagnose.hpp"
@@ -52,8 +53,13 @@ class EffectSearch {
   // Is it enough? Its misfit against data from itself; of the base with effects but for what goes with deviations from what the laboratory
   // states, which beside the bare base are candidates of their own.
   Chance chance_of_misfit_of(const ModelFit&) const;
-  // What the laboratory states, as suits a fit best.
-  AsStated stated_beside(const Judge&, const ModelFit&) const;
+  // What the laboratory states, as suits a fit best, and the judge by what the floor's noise does there, which a width that is off would tell
+  // wrongly.
+  struct Deviated {
+    AsStated stated;
+    Judge judge;
+  };
+  const Deviated& stated_beside(const ModelFit&) const;
   // Looks for it as for an effect, by fits with one of these numbers free. False: it was looked for, or none changes anything.
   bool look_for_deviations(const Candidate&);
   // With nothing that is stated off.
@@ -73,7 +79,10 @@ class EffectSearch {
   Diagnosis out_;
 
  private:
+  Judge judge_of(const ModelSpec&, const Values& x) const;
   std::map<std::vector<std::string>, std::vector<ModelFit>> deviated_;  // what that found beside which effects
+  // Each asked once: of effects, numbers, and how friction scatters.
+  mutable std::map<std::tuple<std::vector<std::string>, Values, double>, Deviated> beside_;
 };
 
 }  // namespace freestand::measurement
