@@ -117,6 +117,19 @@ TEST(LaboratoryVerdict, AnEffectIsFoundThoughTheWidthIsOff) {
   })) << testing::PrintToString(d.sentences);
 }
 
+// The same of a width 2 % off: replays of the floor's noise go by what suits the effect, or a reduced base seems to gain beside it.
+TEST(LaboratoryVerdict, AWidthThatIsOffIsNoSecondEffect) {
+  const Diagnosis d = diagnosed(request({"offset_mass"}, "wrong_width", 6, 8200, 8), {"offset_mass", "reduced_base"});
+  EXPECT_EQ(d.effects, std::vector<std::string>{"offset_mass"}) << testing::PrintToString(d.sentences);
+}
+
+// Test t04 rocks so long that the truth itself misses it by 63 noise units, and friction that is 0.0002 off meets it.
+TEST(LaboratoryVerdict, AHistoryThatAHairOfFrictionTurnsNamesNoEffect) {
+  const Diagnosis d = diagnosed(request({"pressure_friction"}, "", 6, 8100, 8), {"friction_wear"});
+  EXPECT_EQ(d.verdict, Verdict::unknown) << testing::PrintToString(d.sentences);
+  EXPECT_TRUE(d.effects.empty()) << testing::PrintToString(d.effects);
+}
+
 // Two dimensions that are off within their tolerances, and nothing hidden: neither alone explains it, and no effect is named for both.
 TEST(LaboratoryVerdict, NoEffectIsNamedForTwoDimensions) {
   SetRequest rocking{{}, 970, 1, 1};  // what the block is goes by the seed alone
