@@ -78,6 +78,13 @@ class SharedCounters {
 
 }  // namespace
 
+std::int64_t samples_to_beat(std::int64_t samples, double seconds, std::int64_t most) {
+  constexpr std::int64_t least = 32;
+  const double each = seconds / static_cast<double>(samples);
+  return each * static_cast<double>(most) <= beat_s ? most
+                                                    : std::clamp(static_cast<std::int64_t>(beat_s / each), least, most);
+}
+
 BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, std::int64_t ranks) {
   std::int64_t first = 0;
   for (; first < total; ticket -= ranks) {

@@ -18,6 +18,13 @@ namespace freestand::parallel {
 // To be called between the samples of a block; costs a few nanoseconds when there is nothing to do.
 using Beat = std::function<void()>;
 
+// So long at most between two beats of rank 0, as tests/parallel/schedule_simulation_test.cpp assumes.
+inline constexpr double beat_s = 0.01;
+
+// How many samples are computed between two beats, of which so many took so long: as many as that time holds, at least as many as fill the
+// lanes of a processor again and again, and at most `most`.
+std::int64_t samples_to_beat(std::int64_t samples, double seconds, std::int64_t most);
+
 // Computes one block and stores it. What it counted goes into the progress report.
 using BlockFunction = std::function<Counts(std::int64_t block, const Beat& beat)>;
 

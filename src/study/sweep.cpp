@@ -38,8 +38,8 @@
 namespace freestand::study {
 namespace {
 
-// Samples that are integrated together between two beats.
-constexpr std::int64_t pack_samples = 1024;
+// Samples that are integrated together, at most; at first, where others wait for beats, so few.
+constexpr std::int64_t pack_samples = 1024, first_samples = 32;
 
 using parallel::Communicator;
 using Clock = std::chrono::steady_clock;
@@ -217,15 +217,19 @@ class Sweep {
     const Round& round = rounds_.of(first);
     Evaluator::Taken taken;
     if (!round.bins.empty()) taken = [&](const Table& draws) { return bins_->taken(round, draws); };
-    for (std::int64_t sample = first + earlier; sample < end; sample += pack_samples) {
-      const auto count = static_cast<std::size_t>(std::min(pack_samples, end - sample));
-      for (const Outcome outcome : evaluator_.append(static_cast<std::uint64_t>(sample), count, values, taken)) {
+    const bool serves = world_.is_root() && world_.size() > 1;
+    for (std::int64_t sample = first + earlier, count = 0; sample < end; sample += count) {
+      count = std::min(serves ? to_beat_ : pack_samples, end - sample);
+      const auto start = Clock::now();
+      for (const Outcome outcome :
+           evaluator_.append(static_cast<std::uint64_t>(sample), static_cast<std::size_t>(count), values, taken)) {
         ++counts.samples;
         passed_over_ += outcome == passed_over;
         counts.overturned += outcome == Outcome::overturned;
         counts.failed +=
             outcome == Outcome::painleve || outcome == Outcome::step_limit || outcome == Outcome::not_finite;
       }
+      to_beat_ = parallel::samples_to_beat(count, seconds_since(start), pack_samples);
       beat();
     }
     return values;
@@ -341,6 +345,7 @@ class Sweep {
   std::optional<RoundBins> bins_;                  // with `until`
   std::int64_t finished_ = 0;                      // whole blocks of the rounds so far
   std::int64_t integrated_ = 0, passed_over_ = 0;  // by this rank
+  std::int64_t to_beat_ = first_samples;
   SweepSummary summary_;
 };
 

@@ -18,7 +18,7 @@ struct Machine {
   double block_s;        // a block of 8192 samples at 10 us each
   double block_scatter;  // of ln of a block's time, measured: blocks of one study differ by some percent
   double rank_scatter;   // of ln of a rank's speed: cores and nodes differ
-  double service_s;      // of one raise of the counter
+  double service_s;      // of one raise of the counter; assumed
   double beat_s;         // the first rank serves the others between packs of samples; 0: the network does by itself
 };
 
@@ -94,14 +94,14 @@ TEST(Schedule, TicketsTakeEveryBlockOnceAndSingleOnesAtTheEnd) {
 TEST(Schedule, TenThousandRanksLoseLessThanTwoPercent) {
   for (const std::int64_t ranks : {1000, 10000}) {
     const std::int64_t blocks = 120 * ranks;  // a short sweep: ten seconds of each rank
-    for (const double beat_s : {0.0, 0.01}) {
-      const Machine m{ranks, 0.08, 0.05, 0.05, 2e-6, beat_s};
+    for (const double served_each : {0.0, beat_s}) {
+      const Machine m{ranks, 0.08, 0.05, 0.05, 2e-6, served_each};
       const Lost guided = simulate(m, blocks, blocks_of_ticket), single = simulate(m, blocks, one_at_a_time);
       fmt::print(
           "{:6} ranks, counter {}: lost {:.2f} %, at the counter {:.2f} %, {} raises; one block at a time {:.2f} %, "
           "{:.2f} %, {}\n",
-          ranks, beat_s > 0 ? "served by rank 0" : "by the network  ", 100 * guided.share, 100 * guided.counter_share,
-          guided.raises, 100 * single.share, 100 * single.counter_share, single.raises);
+          ranks, served_each > 0 ? "served by rank 0" : "by the network  ", 100 * guided.share,
+          100 * guided.counter_share, guided.raises, 100 * single.share, 100 * single.counter_share, single.raises);
       EXPECT_LT(guided.share, 0.02);
       EXPECT_LT(guided.counter_share, 0.01);
     }

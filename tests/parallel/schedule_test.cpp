@@ -30,6 +30,14 @@ TEST(Schedule, AnErrorInABlockComesOut) {
                Error);
 }
 
+// Rank 0 answers others a hundred times a second, however dear a sample is: a block of samples of a millisecond each had one beat, at its end.
+TEST(Schedule, DearSamplesWaitForNoBlock) {
+  EXPECT_EQ(samples_to_beat(32, 32 * 1e-6, 1024), 1024);
+  EXPECT_EQ(samples_to_beat(1024, 1024 * 1e-4, 1024), 100);
+  EXPECT_EQ(samples_to_beat(32, 32 * 1e-2, 1024), 32);
+  EXPECT_EQ(samples_to_beat(7, 0, 1024), 1024);
+}
+
 TEST(Stop, ASignalStopsAfterTheOpenBlock) {
   for (const int signal_number : {SIGTERM, SIGINT, SIGUSR1}) {
     const StopOnSignal stop_on_signal;
