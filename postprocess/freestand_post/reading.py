@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import h5py
 import numpy as np
 
-from . import closing, words
+from . import buildings, closing, words
 from .problem import Problem
 
 OUTCOMES = ("at_rest", "moved", "overturned", "painleve", "step_limit", "not_finite")
@@ -65,7 +65,8 @@ class Sweep:
     outcome: np.ndarray      # [sample] int
     motions: list            # names
     is_record: np.ndarray    # [motion] 1: a record, 0: a family of pulses, 2: what a floor of a building does under a record
-    amplification: dict      # storey -> peak acceleration of that floor over the ground's, one for each record; empty without a building
+    ground: np.ndarray       # [motion] the record of the ground on which a floor hangs; of any other motion itself
+    amplification: dict      # (building, storey) -> {record: peak acceleration of that floor over the ground's}; empty without a building
 
     @property
     def level(self):
@@ -263,9 +264,9 @@ def _json(path):
 
 
 def _samples(path):
-    """Draws, outcomes, motion names, which of them are records, and floors, of samples.h5; empty where the file is not there."""
+    """Draws, outcomes, and of motions the names, which are records, on which they hang, and what floors do; empty without samples.h5."""
     if not path.exists():
-        return {}, np.zeros(0, int), [], np.zeros(0, int), {}
+        return {}, np.zeros(0, int), [], np.zeros(0, int), np.zeros(0, int), {}
     with _open(path, "freestand-samples/2") as root:
         if "samples" not in root or "outcome" not in root["samples"]:
             raise Problem(f"{path} has no /samples/outcome: it is incomplete; finish it with `freestand sweep --resume`")
@@ -280,17 +281,16 @@ def _samples(path):
         motions = [_text(item) for item in root["motions/name"][()]] if "motions/name" in root else []
         group = _numbers(root["motions"], "group") if "motions/group" in root else np.zeros(0)  # -1: pulses
         is_record = (group >= 0).astype(int)
-        if "ground" in root["motions"]:
-            is_record[_numbers(root["motions"], "ground") != np.arange(len(motions))] = 2
-        amplification = _amplification(root["motions"]) if "ground" in root.get("motions", {}) else {}
+        ground, amplification = np.arange(len(motions)), {}
+        if "ground" in root.get("motions", {}):
+            ground, storey, peak = (_numbers(root["motions"], name) for name in ("ground", "storey", "pga_mps2"))
+            ground = ground.astype(int)
+            is_record[ground != np.arange(len(motions))] = 2
+            amplification = buildings.amplification(motions, ground, storey, peak)
+        if "storey" in draws and "motion" in draws:  # the file says 0 of what stands in no building
+            draws["storey"][~buildings.stand_in_one(ground)[draws["motion"].astype(int)]] = np.nan
     return ({name: values[:alike] for name, values in draws.items() if values.shape == outcome.shape}, outcome[:alike], motions, is_record,
-            amplification)
-
-
-def _amplification(group):
-    storey, ground, peak = (_numbers(group, name) for name in ("storey", "ground", "pga_mps2"))
-    ratio = peak / peak[ground.astype(int)]
-    return {int(k): ratio[storey == k] for k in np.unique(storey) if k > 0}
+            ground, amplification)
 
 
 def read_sweep(folder):
@@ -324,10 +324,10 @@ def _read_sweep(folder):
     names = attributes.get("outcome_names", OUTCOMES)
     names = names.split() if isinstance(names, str) else names
     outcomes = dict(zip(names, np.atleast_1d(attributes.get("outcome_counts", [])).astype(int).tolist()))
-    draws, outcome, motions, is_record, amplification = _samples(folder / summary.get("samples_in", "") / "samples.h5")
+    draws, outcome, motions, is_record, ground, amplification = _samples(folder / summary.get("samples_in", "") / "samples.h5")
     return Sweep(folder, attributes, summary, outcomes or summary.get("outcomes", {}), str(attributes.get("im", "im")),
                  str(attributes.get("im_unit", "1")), edge, centre, _in_order(edps, summary), overturning, draws, outcome, motions,
-                 is_record, amplification)
+                 is_record, ground, amplification)
 
 
 def _in_order(edps, summary):

@@ -183,13 +183,23 @@ def _motions(sweep):
     pulses = [name for name, record in zip(sweep.motions, sweep.is_record) if not record]
     found = []
     if records:
-        storeys = sorted({int(storey) for storey in sweep.draws.get("storey", [])})
-        upstairs = "" if storeys in ([], [0]) else f" of the ground, on storey {words.listing([str(storey) for storey in storeys], 'or')} of a building"
         pairs = " in two horizontal directions" if "cross_records" in str(sweep.attributes.get("study", "")) else ""
-        found.append((f"one of {words.plural(len(records), 'record')}" if len(records) > 1 else "one record") + pairs + upstairs)
+        found.append((f"one of {words.plural(len(records), 'record')}" if len(records) > 1 else "one record") + pairs + _upstairs(sweep))
     if pulses:
         found.append(f"a pulse of {words.plural(len(pulses), 'kind')} ({', '.join(pulses)})" if len(pulses) > 1 else f"a pulse {pulses[0]}")
-    return " or ".join(found)
+    return (", or " if "," in found[0] else " or ").join(found) if found else ""
+
+
+def _upstairs(sweep):
+    """" of the ground, on storey 1 or 3 of a building": where the records shake, of samples that stand in a building."""
+    storey = sweep.draws.get("storey", np.zeros(0))
+    storeys = [str(int(value)) for value in np.unique(storey[np.isfinite(storey)])]
+    if storeys in ([], ["0"]):
+        return ""
+    outside = np.isnan(storey) & (sweep.is_record[sweep.draws["motion"].astype(int)] == 1)
+    buildings = list(dict.fromkeys(building for building, _ in sweep.amplification))
+    of = f"one of the buildings {words.listing(buildings)}" if len(buildings) > 1 else "a building"
+    return f" of the ground, {'as it is or ' if outside.any() else ''}on storey {words.listing(storeys, 'or')} of {of}"
 
 
 def _draws(sweep):

@@ -64,23 +64,6 @@ class Pictures(unittest.TestCase):
         expected.remove("axis_peak_rotation_over_alpha_friction_mu_k")
         self.assertEqual(set(self.drawn), expected | {"overturning", "happening_connection_failed", "coverage", "stands", "falls"})
 
-    def test_floors_stand_over_the_ground_of_their_own_record(self):
-        """Two records, each with the floors 1 and 3 of its building; peaks of the floors over those of the record they hang on."""
-        sweep = reading.read_sweep(support.sweep())
-        self.assertEqual(sweep.amplification, {})  # no building
-        with tempfile.TemporaryDirectory() as folder, h5py.File(pathlib.Path(folder) / "s.h5", "w") as root:
-            for name, values in (("ground", [0, 0, 0, 3, 3, 3]), ("storey", [0, 1, 3, 0, 1, 3]), ("pga_mps2", [2.0, 3, 5, 4, 4, 14])):
-                root[f"motions/{name}"] = values
-            sweep.amplification = reading._amplification(root["motions"])
-        self.assertEqual({storey: list(ratios) for storey, ratios in sweep.amplification.items()}, {1: [1.5, 1.0], 3: [2.5, 3.5]})
-        (picture,) = [picture for picture in pictures.draw(sweep) if picture.name == "floors"]
-        (ax,) = picture.figure.axes
-        medians = next(line for line in ax.lines if line.get_linestyle() == "-" and line.get_marker() == "o")
-        self.assertEqual(list(medians.get_xdata()), [1.0, 1.25, 3.0])
-        self.assertEqual(list(medians.get_ydata()), [0, 1, 3])
-        self.assertIn("On storey 3 the floor shakes 3 times as hard", picture.finding.replace("3.0", "3"))
-        self.assertEqual(overlaps(picture.figure), [])
-
     def test_no_two_texts_overlap(self):
         for name, picture in self.drawn.items():
             with self.subTest(name):
