@@ -6,6 +6,7 @@ from scipy import stats
 
 from .. import style, words
 from ..reading import OUTCOMES, Sweep
+from ..separation import beyond_chance, event, parted, seen, separation
 from . import Picture
 
 order = 70
@@ -14,14 +15,15 @@ POINTS = 3500    # samples shown in a pair
 FEW = 8          # a draw with no more values than these is shown as classes
 LEFT_OUT = ("scale",)
 CAPTION = ("Diagonal: how often each value was drawn, stacked by outcome; below it, pairs of draws, one point a sample. Gaps would be "
-           "combinations that were never tried; colour shows where specimens stay, move and overturn.")
+           "combinations that were never tried; colour shows where specimens stay, move and overturn. The title names a draw only where it alone "
+           "tells the outcomes apart by more than chance would among all draws (5 % for all of them together).")
 
 
 def pictures(results):
     if isinstance(results, Sweep):
-        names = swept(results)
+        names = swept(results, limit=None)
         if names:
-            yield _picture(results, names)
+            yield _picture(results, names[:LIMIT], _finding(results, names))
 
 
 def swept(sweep, limit=LIMIT):
@@ -33,28 +35,13 @@ def swept(sweep, limit=LIMIT):
         many = name == "motion" and len(sweep.motions) > FEW
         if varies and not many and name not in LEFT_OUT and not any(_same(values, sweep.draws[other]) for other in chosen):
             chosen.append(name)
-    return sorted(chosen, key=lambda name: (-separation(sweep, name), name))[:limit]
+    return sorted(chosen, key=lambda name: (-separation(sweep, name).size, name))[:limit]
 
 
 def _same(values, other):
     """Do the two say nearly the same (as width and slenderness of a block of one height)?"""
     good = np.isfinite(values) & np.isfinite(other)
     return good.sum() > 2 and abs(np.nan_to_num(stats.spearmanr(values[good][:5000], other[good][:5000]).correlation)) > 0.9
-
-
-def separation(sweep, name):
-    """How well a draw alone tells the outcomes apart: |2 AUC - 1|, overturned against the rest, else moved against at rest."""
-    values, good = sweep.draws[name], np.isfinite(sweep.draws[name])
-    event = sweep.outcome == (2 if (sweep.outcome == 2).any() else 1)
-    yes, no = values[good & event], np.sort(values[good & ~event])
-    if yes.size == 0 or no.size == 0:
-        return 0.0
-    if name == "motion":  # classes have no order: rank them by how often the event happens
-        share = {value: (yes == value).sum() / max(1, (values[good] == value).sum()) for value in np.unique(values[good])}
-        yes, no = (np.array([share[value] for value in part]) for part in (yes, no))
-        no.sort()
-    rank = 0.5 * (np.searchsorted(no, yes, "left") + np.searchsorted(no, yes, "right"))
-    return abs(2 * rank.mean() / no.size - 1)
 
 
 def classes(sweep, name):
@@ -92,7 +79,7 @@ class _Draw:
             axis.set_tick_params(length=0)
 
 
-def _picture(sweep, names):
+def _picture(sweep, names, finding):
     count, draws = len(names), [_Draw(sweep, name) for name in names]
     side = 1.62 if count > 2 else 2.4
     fig = style.figure(max(0.7 + side * count, 5.0), 1.0 + side * count)
@@ -117,7 +104,6 @@ def _picture(sweep, names):
     fig.align_labels()
     shown = (f"{words.count(some.size)} of {words.plural(sweep.kept, 'sample')}{sweep.part} shown" if some.size < sweep.kept else
              f"all {words.plural(sweep.kept, 'sample')}{sweep.part} shown")
-    finding = _finding(sweep, names)
     style.headline(fig, finding, f"Draws of the sweep, one by one and in pairs; {shown}.")
     _key(axes, sweep, count)
     return Picture("coverage", fig, finding, CAPTION, "sweep")
@@ -148,8 +134,34 @@ def _key(axes, sweep, count):
 
 
 def _finding(sweep, names):
+    """Which draw decides most, as far as that is known. names: all draws that vary, the largest separation first."""
     what = "overturns" if (sweep.outcome == 2).any() else "moves"
-    if separation(sweep, names[0]) < 0.1:
-        return f"No single draw decides which specimen {what}"
-    runner = f", then by the {words.short_column(names[1])}" if len(names) > 1 and separation(sweep, names[1]) > 0.1 else ""
-    return f"Which specimen {what} is decided most by the {words.short_column(names[0])}{runner}"
+    found = [separation(sweep, name) for name in names]
+    known = [beyond_chance(one, len(names)) for one in found]
+    if not any(known):
+        return _nothing(sweep, what, found)
+    top = [i for i, one in enumerate(found) if not parted(found[0], one)]
+    named = words.listing(f"the {words.short_column(names[i])}" for i in top if known[i])
+    if not named:  # what is largest is not known to be more than chance, and what comes behind it is
+        named = f"the {words.short_column(names[known.index(True)])}"
+    if not all(known[i] for i in top):
+        return f"Which specimen {what} is decided by {named}, perhaps by others as much"
+    then = len(top)
+    runner = then < len(names) and known[then] and (then + 1 == len(names) or parted(found[then], found[then + 1]))
+    return f"Which specimen {what} is decided most by {named}" + (f", then by the {words.short_column(names[then])}" if runner else "")
+
+
+def _nothing(sweep, what, found):
+    """Where no draw is known to decide: because none does, or because too little happened to tell."""
+    happened = event(sweep)
+    rare = int(min(happened.sum(), (~happened).sum()))
+    did, did_not = ("overturned", "did not overturn") if what == "overturns" else ("moved", "did not move")
+    of = f" of the {words.plural(sweep.kept, 'sample')}{sweep.part}" if sweep.part else ""
+    if rare == 0:
+        return f"Every specimen {did}" if happened.any() else f"No specimen {did}"
+    if not seen(min(one.error for one in found), len(found)):
+        many = f"{words.count(rare)}{of}" if of else words.plural(rare, "specimen")
+        return f"{many} {did if rare == happened.sum() else did_not}: too few to tell what decides"
+    if not all(seen(one.error, len(found)) for one in found):
+        return f"No single draw is known to decide which specimen {what}"
+    return f"No single draw decides which specimen {what}"
