@@ -221,6 +221,11 @@ class Pictures(unittest.TestCase):
         self.assertIn("S = ", shown)
         self.assertIn("p* ", shown)
 
+    def test_counted_distributions_are_told_to_be_taken_to_the_mean_intensity(self):
+        """src/fragility/tally.cpp counts residuals: where the demand rises within a bin, they are not the shares counted in it."""
+        for name in ("surface_delta", "goodness_delta"):
+            self.assertIn("taken along the bin's slope to its mean intensity", self.drawn[name].caption)
+
     def test_the_fall_is_told(self):
         self.assertTrue(self.drawn["falls"].finding.startswith("Overturns at "))
         self.assertIn("comes to rest", self.drawn["stands"].finding)

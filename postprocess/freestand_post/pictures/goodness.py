@@ -8,9 +8,10 @@ from . import Picture
 
 order = 40
 COLUMNS = 4
-CAPTION = ("Black: counted distribution of {symbol} in a bin, of the samples that moved and stood; blue: fitted lognormal; red: "
-           "where they are farthest apart. S is the Kolmogorov-Smirnov statistic; p the chance of a larger S if the lognormal "
-           "were true, with parameters fitted to the same data, and p* the textbook value, which is too lenient here.")
+CAPTION = ("Black: counted distribution of {symbol} in a bin, of the samples that moved and stood, each taken along the bin's slope to its "
+           "mean intensity; blue: fitted lognormal; red: where they are farthest apart. S is the Kolmogorov-Smirnov statistic; p the chance "
+           "of a larger S if the lognormal were true, with parameters fitted to the same data, and p* the textbook value, which is too "
+           "lenient here.")
 
 
 def pictures(results):

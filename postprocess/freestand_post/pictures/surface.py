@@ -9,7 +9,8 @@ from . import Picture
 order = 20
 LEVELS = (0.1, 0.25, 0.5, 0.75, 0.9)
 CAPTION = ("Shade and contour lines: probability that {symbol} exceeds the capacity C (up) at an intensity (across), from the "
-           "three-part model of each bin; a triangle marks a bin whose lognormal is not known to be adequate and whose counted distribution is shown instead.")
+           "three-part model of each bin; a triangle marks a bin whose lognormal is not known to be adequate and whose counted distribution is shown "
+           "instead, of demands taken along the bin's slope to its mean intensity, so that it need not be the share counted in the bin.")
 
 
 def pictures(results):
