@@ -35,6 +35,11 @@ std::int64_t finished_in(const fs::path& folder) {
   return finished + parallel::count_finished_blocks(blocks_path(folder));
 }
 
+bool anything_finished_in(const fs::path& folder) {
+  std::error_code error;
+  return fs::exists(samples_path(folder), error) || parallel::count_finished_blocks(blocks_path(folder)) > 0;
+}
+
 fs::path note_path(const fs::path& folder) { return folder / io::begun_name; }
 
 }  // namespace
@@ -49,7 +54,9 @@ RunFolder::RunFolder(const parallel::Communicator& world, const fs::path& folder
   world_.on_root([&] {
     io::make_output_folder(folder_, existing, files);
     lock_.emplace(folder_, io::FolderLock::Settings{.lost = parallel::request_stop});
+    locked_ = true;
     io::prepare_output_folder(folder_, existing, files);
+    ready_ = true;
   });
   refuse_other_folders();
 }
@@ -76,35 +83,46 @@ void RunFolder::refuse_other_folders() const {
 
 void RunFolder::begin() {
   world_.on_root([&] {
+    const std::lock_guard guard(noting_);
     remove_asides(folder_);
-    finished_ = finished_in(folder_);
-    std::ifstream note(note_path(folder_));
-    std::string signature;
-    std::int64_t before = -1;
-    std::getline(note, signature) >> before;
-    fruitless_before_ = before == finished_;
-    io::write_text(note_path(folder_), io::signed_text(fmt::format("{}\n", finished_)));
+    note_start();
   });
-  working_ = true;
+}
+
+void RunFolder::note_start() {
+  finished_ = finished_in(folder_);
+  std::ifstream note(note_path(folder_));
+  std::string signature;
+  std::int64_t before = -1;
+  std::getline(note, signature) >> before;
+  fruitless_before_ = before == finished_;
+  io::write_text(note_path(folder_), io::signed_text(fmt::format("{}\n", finished_)));
+  noted_ = true;
 }
 
 void RunFolder::confirm() const {
   world_.on_root([&] { lock_->confirm(); });
 }
 
-Error RunFolder::stopped() const {
-  if (working_ && fruitless_before_ && finished_in(folder_) == finished_)
+Error RunFolder::stopped() {
+  const std::lock_guard guard(noting_);
+  try {
+    if (ready_ && !noted_) note_start();
+  } catch (const Error& error) {  // as of a full disk
+    return error;
+  }
+  if (noted_ && fruitless_before_ && finished_in(folder_) == finished_)
     return Error(fmt::format("stopped in {} before anything more was finished, as was the run before (its time is too "
                              "short): give it more time, or a smaller block_size, and {}",
                              folder_.string(), go_on_),
                  Exit::cure);
-  const bool kept = finished_in(folder_) > 0;
   return Error(fmt::format("stopped early (on request): {} in {}; {}",
-                           kept ? "what is finished is kept" : "nothing was finished", folder_.string(), go_on_),
+                           anything_finished_in(folder_) ? "what is finished is kept" : "nothing was finished",
+                           folder_.string(), go_on_),
                Exit::resumable);
 }
 
-void RunFolder::leave() const {
+void RunFolder::leave() {
   parallel::request_stop();  // of a rank that was not asked itself, too: the signal may still be on its way to it
   world_.on_root([&] {
     lock_->confirm();
@@ -113,7 +131,7 @@ void RunFolder::leave() const {
   std::abort();  // on_root has thrown
 }
 
-void RunFolder::leave_if_asked() const {
+void RunFolder::leave_if_asked() {
   if (world_.any(parallel::stop_requested())) leave();
 }
 
@@ -126,7 +144,7 @@ void RunFolder::end() const {
 
 void RunFolder::overdue() {
   const Error error = stopped();
-  if (working_ && lock_) lock_->release();
+  if (locked_) lock_->release();
   parallel::end_run(world_, error);
   std::_Exit(static_cast<int>(error.exit()));
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <freestand/error.hpp>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,8 @@ class RunFolder {
 
   const std::filesystem::path& path() const { return folder_; }
 
-  // The work begins: what is finished by now is noted in the folder.
+  // The work begins: what is finished by now is noted in the folder. A run that is stopped before it comes here notes it as
+  // it stops, so that runs whose time ends while they start are told from runs that get on; one that is refused notes nothing.
   void begin();
 
   // Throws Error if the lock was lost.
@@ -35,24 +37,28 @@ class RunFolder {
 
   // Throws the Error of a run that was asked to stop, if any rank was: Exit::resumable, or Exit::cure where neither this
   // run nor the one before it finished anything, so that another would not either.
-  void leave_if_asked() const;
-  [[noreturn]] void leave() const;
+  void leave_if_asked();
+  [[noreturn]] void leave();
 
   // All is done: there is nothing to go on with.
   void end() const;
 
  private:
   void refuse_other_folders() const;
-  Error stopped() const;
+  void note_start();
+  Error stopped();
   void overdue();
 
   const parallel::Communicator world_;
   const std::filesystem::path folder_;
   const std::string go_on_;
   std::optional<io::FolderLock> lock_;  // on the root
-  std::int64_t finished_ = -1;          // when the work began; on the root
+  std::atomic<bool> locked_ = false;    // by lock_
+  std::atomic<bool> ready_ = false;     // what is in the folder is this run's to change
+  std::mutex noting_;                   // of the three below: a run that is overdue ends from another thread
+  bool noted_ = false;                  // on the root, as the next two
+  std::int64_t finished_ = -1;          // when the work began
   bool fruitless_before_ = false;       // the run before began with as much
-  std::atomic<bool> working_ = false;
   parallel::StopOnSignal stop_on_signal_;
 };
 

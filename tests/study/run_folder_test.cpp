@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <csignal>
 #include <fstream>
+#include <thread>
 
 #include "parallel/block_log.hpp"
 #include "study/sweep.hpp"
@@ -35,6 +37,14 @@ class RunFolderTest : public testing::Test {
     log.begin({});
     for (const std::int64_t block : blocks) log.write(block, {1, {0.5}});
     folder.leave_if_asked();
+    parallel::request_stop();
+    return error_text(expected, [&] { folder.leave_if_asked(); });
+  }
+
+  // A run that is asked to stop while it starts: before it begins. What it says.
+  std::string stopped_start(Exit expected) {
+    parallel::clear_stop();
+    RunFolder folder({}, scratch_.folder(), io::Existing::resume, "go on with --resume");
     parallel::request_stop();
     return error_text(expected, [&] { folder.leave_if_asked(); });
   }
@@ -70,6 +80,37 @@ TEST_F(RunFolderTest, TwoStopsInARowWithoutProgressAskForACure) {
   stopped_run(Exit::resumable, {2});
   stopped_run(Exit::resumable, {});
   stopped_run(Exit::cure, {});
+}
+
+TEST_F(RunFolderTest, TwoStopsInARowWhileItStartsAskForACure) {
+  EXPECT_THAT(stopped_start(Exit::resumable), HasSubstr("nothing was finished"));
+  EXPECT_THAT(stopped_start(Exit::cure), HasSubstr("more time"));
+  stopped_run(Exit::resumable, {1});
+  stopped_start(Exit::resumable);
+  stopped_run(Exit::cure, {});
+  stopped_start(Exit::cure);
+}
+
+// One that hangs while it starts is ended from another thread; the next one must not wait for its lock.
+TEST_F(RunFolderTest, AnOverdueStartGivesItsLockBackAndCounts) {
+  const auto hangs = [&] {
+    RunFolder folder({}, scratch_.folder(), io::Existing::resume, "go on with --resume");
+    parallel::request_stop();
+    std::this_thread::sleep_for(std::chrono::minutes(1));
+  };
+  EXPECT_EXIT(hangs(), testing::ExitedWithCode(75), "nothing was finished");
+  EXPECT_FALSE(fs::exists(scratch_ / io::lock_name));
+  stopped_start(Exit::cure);
+}
+
+TEST_F(RunFolderTest, AStopInTheFitKeepsTheSamples) {
+  std::ofstream(samples_path(scratch_.folder())) << "x";
+  EXPECT_THAT(stopped_run(Exit::resumable, {}), HasSubstr("what is finished is kept"));
+}
+
+TEST_F(RunFolderTest, AStartThatIsNotStoppedNotesNothing) {
+  { const RunFolder folder({}, scratch_.folder(), io::Existing::resume, "go on with --resume"); }
+  EXPECT_FALSE(fs::exists(scratch_ / io::begun_name));
 }
 
 TEST_F(RunFolderTest, SamplesThatAreCompleteAreProgress) {
