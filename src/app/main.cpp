@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <exception>
 
@@ -40,12 +41,6 @@ namespace {
 constexpr double patience_s = 0.2;
 
 int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
-  const freestand::parallel::StopOnSignal stop({patience_s, [root = world.is_root()] {
-                                                  if (root)
-                                                    fmt::print(stderr,
-                                                               "stopped on request (nothing is kept): start again\n");
-                                                  std::_Exit(static_cast<int>(freestand::Exit::resumable));
-                                                }});
   CLI::App parser("Seismic fragility databases for freestanding equipment", "freestand");
   parser.require_subcommand(1);
   parser.set_version_flag("--version", freestand::io::provenance_here("", 1).version);
@@ -82,9 +77,19 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
 
 }  // namespace
 
+// Signals are answered before MPI starts, which may take a second or, where a rank is missing, for ever: it leaves these handlers as they
+// are. Until it has started no rank knows whether it speaks for all, and none does.
 int main(int argc, char** argv) {
+  std::atomic<bool> speaks = false;
+  const freestand::parallel::StopOnSignal stop({patience_s, [&speaks] {
+                                                  if (speaks)
+                                                    fmt::print(stderr,
+                                                               "stopped on request (nothing is kept): start again\n");
+                                                  std::_Exit(static_cast<int>(freestand::Exit::resumable));
+                                                }});
   try {
     const freestand::parallel::Session session(&argc, &argv);
+    speaks = session.world().is_root();
     return run(argc, argv, session.world());
   } catch (const freestand::Error& error) {  // MPI does not start
     fmt::print(stderr, "{}\n", freestand::printable(error.what(), freestand::Lines::keep));

@@ -1,16 +1,31 @@
 """Signals in every phase, two jobs in one folder, and what a refusal leaves behind: nothing is lost, and nothing is swallowed."""
 
+import os
+import pathlib
 import signal
 import subprocess
 import time
 import unittest
 
-from support import CONFIGS, InFolder, command, datasets, finished_blocks, result, slow_fit, study_text
+from support import CONFIGS, FREESTAND, InFolder, command, datasets, finished_blocks, result, slow_fit, study_text
 
 
 def contents(folder):
     """Every file below a folder: its bytes and when it was written."""
     return {path: (path.read_bytes(), path.stat().st_mtime_ns) for path in folder.rglob("*") if path.is_file()}
+
+
+def ranks_that_start_mpi(folder):
+    """Processes of the program, with this folder on their command line, that have loaded the first of Open MPI's parts."""
+    found = []
+    for process in pathlib.Path("/proc").glob("[0-9]*"):
+        try:
+            words = (process / "cmdline").read_bytes().split(b"\0")
+            if words[0] == FREESTAND.encode() and str(folder).encode() in words and "/mca_" in (process / "maps").read_text():
+                found.append(int(process.name))
+        except OSError:  # it has ended
+            continue
+    return found
 
 
 class Stopping(InFolder):
@@ -85,6 +100,18 @@ class Signals(Stopping):
             self.assertLess(seconds, 15)
             self.assertFalse((folder / "fragility.h5").exists())
             self.assertFalse((folder / "freestand.lock").exists())
+
+    def test_while_mpi_starts(self):
+        """To one rank, once the parts of MPI are in its memory: it may be met before MPI has started, or in the first steps of the run."""
+        study = self.write("study.yaml", study_text(samples=200000))
+        for number in (signal.SIGTERM, signal.SIGUSR1, signal.SIGTERM, signal.SIGUSR1):
+            folder = self.folder / f"out-{number}-{time.monotonic_ns()}"
+            process = self.start(["run", study, "-o", folder, "--quiet"], 2)
+            starting = []
+            self.wait_for(lambda: starting.extend(ranks_that_start_mpi(folder)) or starting, process)
+            os.kill(starting[0], number)
+            _, error = process.communicate(timeout=100)
+            self.assertEqual(process.returncode, 75, error)
 
     def test_what_keeps_nothing_ends_at_once(self):
         """Fits of a set, which are begun anew: no result, no word but that."""
