@@ -2,15 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <memory>
+#include <set>
+#include <string>
 
 #include "app/command.hpp"
 #include "app/times.hpp"
 #include "io/database_file.hpp"
 #include "parallel/progress.hpp"
 #include "study/build_catalogue.hpp"
+#include "study/doubts.hpp"
 #include "study/export.hpp"
 #include "study/known.hpp"
+#include "study/realise.hpp"
 
 namespace freestand::app {
 namespace {
@@ -30,6 +35,17 @@ void show(const study::Catalogue& catalogue) {
                entry.words.mu_k, entry.words.width_m, entry.words.height_m, entry.study.samples, entry.place);
 }
 
+// What is doubtful of its entries, as their sweeps would tell it. Records of a floor that several entries stand on are read once.
+void tell_doubts(const study::Catalogue& catalogue) {
+  std::map<std::string, study::MotionSet> motions;
+  std::set<std::string> told;
+  for (const study::CatalogueEntry& entry : catalogue.entries) {
+    const std::string shaking = entry.words.shaking + entry.study.folder.string();
+    if (!motions.contains(shaking)) motions.emplace(shaking, study::load_motions(entry.study));
+    study::tell_doubts(entry.study, motions.at(shaking), told);
+  }
+}
+
 // What cannot be exported stops no database.
 void tell(const study::DatabaseExport& done, const CatalogueOptions& options) {
   if (options.quiet) return;
@@ -45,7 +61,10 @@ Exit build(const Context& context, const CatalogueOptions& options) {
   context.world.on_root([&] { study::read_catalogue(options.catalogue, known); });
   const study::Catalogue catalogue = study::read_catalogue(options.catalogue, known);
   if (options.check) {
-    if (context.world.is_root()) show(catalogue);
+    context.world.on_root([&] {
+      tell_doubts(catalogue);
+      show(catalogue);
+    });
     return Exit::done;
   }
   if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DB");
@@ -73,7 +92,8 @@ void add_catalogue(CLI::App& parser, Work& work) {
       parser.add_subcommand("catalogue", "many entries of equipment into one database, which is gone on with");
   verb->add_option("catalogue", options->catalogue, "catalogue file")->required();
   verb->add_option("-o,--output", options->folder, "folder of the database, new or to be extended");
-  verb->add_flag("--check", options->check, "check the catalogue, list its entries, and stop");
+  verb->add_flag("--check", options->check,
+                 "check the catalogue and the records that it names, list its entries, and stop");
   verb->add_flag("--redo", options->redo, "compute entries anew whose study is another now");
   verb->add_flag("--resume", options->resume, "go on where a run was stopped; this is done without it too");
   verb->add_flag("--quiet", options->quiet, "no progress");

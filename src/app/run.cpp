@@ -1,11 +1,14 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <set>
+#include <string>
 
 #include "app/command.hpp"
 #include "app/times.hpp"
 #include "io/output_folder.hpp"
 #include "parallel/progress.hpp"
+#include "study/doubts.hpp"
 #include "study/fit.hpp"
 #include "study/known.hpp"
 #include "study/motion_bytes.hpp"
@@ -34,13 +37,15 @@ study::Study read(const Context& context, const RunOptions& options) {
   return read_it();
 }
 
-// Records that cannot be read, and bins that cannot be laid, are told as the sweep would tell them.
+// What is doubtful, records that cannot be read, and bins that cannot be laid, are told as the sweep would tell them.
 Exit check(const Context& context, const RunOptions& options) {
   const study::Study study = read(context, options);
   const study::MotionSet motions = study::load_motions_together(context.world, study);
   const study::Evaluator evaluator(study, motions, study::summarize_together(context.world, study, motions, nullptr));
   std::string size;
+  std::set<std::string> told;
   context.world.on_root([&] {
+    study::tell_doubts(study, motions, told);
     const study::SweepSize found = study::size_of(study, study::Target(study), evaluator);
     study::refuse_too_large(found);
     size = study::told(found);

@@ -12,6 +12,7 @@
 #include "motion/offset.hpp"
 #include "motion/peaks.hpp"
 #include "motion/summary.hpp"
+#include "parallel/progress.hpp"
 #include "study/formula_places.hpp"
 #include "study/problems.hpp"
 #include "study/read_parts.hpp"
@@ -306,6 +307,11 @@ std::vector<std::string> with_those_of_records(std::vector<std::string> said, co
 
 std::vector<std::string> doubts(const Study& study, const MotionSet& motions) {
   return with_those_of_records(doubts(study), study, motions);
+}
+
+void tell_doubts(const Study& study, const MotionSet& motions, std::set<std::string>& told) {
+  for (const std::string& doubt : doubts(study, motions))
+    if (told.insert(doubt).second) parallel::tell("doubtful: " + doubt + "\n");
 }
 
 std::vector<std::string> doubts(const Case& c, const MotionSet& motions) {

@@ -2,6 +2,10 @@
 // left out of a pattern. One plain sentence each.
 #pragma once
 
+#include <set>
+#include <string>
+#include <vector>
+
 #include "study/realise.hpp"
 
 namespace freestand::study {
@@ -12,6 +16,8 @@ std::vector<std::string> doubts(const Study&);
 std::vector<std::string> doubts_of_records(const Study&, const MotionSet&);
 // Both.
 std::vector<std::string> doubts(const Study&, const MotionSet&);
+// Tells both on stderr, but for what is among `told`, which it then is.
+void tell_doubts(const Study&, const MotionSet&, std::set<std::string>& told);
 // Of a case: one sample, whose numbers are no distributions.
 std::vector<std::string> doubts(const Case&, const MotionSet&);
 

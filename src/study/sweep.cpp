@@ -64,9 +64,8 @@ std::string why_other(const Study& study, const std::filesystem::path& folder, c
 MotionSet load_together(const Communicator& world, const Study& study, const SweepOptions& options) {
   const MotionSet motions = load_motions_together(world, study);
   world.on_root([&] {
-    for (const std::string& doubt : doubts(study, motions))
-      if (!options.doubts_told || options.doubts_told->insert(doubt).second)
-        parallel::tell("doubtful: " + doubt + "\n");
+    std::set<std::string> none;
+    tell_doubts(study, motions, options.doubts_told ? *options.doubts_told : none);
   });
   return motions;
 }

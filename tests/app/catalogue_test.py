@@ -115,8 +115,9 @@ class Catalogue(InFolder):
 
     def test_what_is_doubtful_of_all_entries_is_told_once(self):
         text = (HEAD + FRIDGE + RACK.replace("mu: 0.3", "mu: 30")).replace("log_uniform: [0.1, 2]", "log_uniform: [10, 200]").replace("samples: 600", "samples: 64").replace("count: 4", "count: 1")
-        told = self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"], 2).stderr
-        self.assertEqual((told.count("is it in g?"), told.count("is it a friction coefficient?")), (1, 1), told)
+        for arguments, ranks in ((["-o", self.folder / "db"], 2), (["--check"], 1)):
+            told = self.succeed(["catalogue", self.write("some.yaml", text), *arguments], ranks).stderr
+            self.assertEqual((told.count("is it in g?"), told.count("is it a friction coefficient?")), (1, 1), told)
 
     def test_a_changed_entry_is_refused_or_computed_anew(self):
         self.build(FRIDGE + RACK)

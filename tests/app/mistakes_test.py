@@ -1,6 +1,7 @@
 """What a user does wrong is told clearly, with the right exit code, and nothing is lost."""
 
 import json
+import math
 import os
 import re
 import resource
@@ -50,6 +51,20 @@ class Mistakes(InFolder):
         own = [done.stderr.split("-----")[0] for done in (checked, swept)]  # what mpirun says below has job numbers
         self.assertIn("bad.csv:4", own[0])
         self.assertEqual(own[0], own[1])
+
+    def test_check_tells_what_is_doubtful_as_run_does(self):
+        """A dispersion in percent, and a record with an offset."""
+        rows = [(0.01 * i, 2 * math.sin(0.2 * i) if 50 < i < 350 else 0) for i in range(400)]
+        self.write("plain.csv", "time_s,floor_acceleration_mps2\n" + "".join(f"{t:.2f},{a:.6f}\n" for t, a in rows))
+        self.write("shifted.csv", "time_s,floor_acceleration_mps2\n" + "".join(f"{t:.2f},{a + 3:.6f}\n" for t, a in rows))
+        study = self.write("study.yaml", with_records("*.csv").replace("dispersion: 0.4", "dispersion: 30"))
+        checked = self.succeed(["run", "--check", study], 2).stderr
+        self.assertIn("has the dispersion 30", checked)
+        self.assertIn("shifted.csv has an offset of 2.96 m/s2", checked)
+        for verb in ("run", "sweep"):
+            swept = run([verb, study, "-o", self.folder / verb, "--quiet"], 2).stderr
+            self.assertEqual([line for line in swept.splitlines() if line.startswith("doubtful")], checked.splitlines())
+        self.assertEqual(self.succeed(["sweep", "--check", study]).stderr, checked)
 
     def test_negative_size_and_impossible_friction(self):
         self.check(study_text().replace("uniform: [0.5, 0.9]", "uniform: [-0.5, 0.9]"), "width_m")
