@@ -60,7 +60,8 @@ class Presets(unittest.TestCase):
             if effect.stem != "effects":
                 with self.subTest(effect.stem):
                     self.assertIn(f"{{name: {effect.stem}", studies)
-        for word in ("model: bouc_wen", "chain:", "vertical_records:", "pulse:"):
+        for word in ("model: bouc_wen", "chain:", "elevation_rad:", "vertical_records:", "cross_records:", "pulse:", "neighbour:", "legs:", "start:",
+                     "rest/", "contact_forces: true", "acceleration_height_m:", "slip_by_side: true", "other_gap_m:"):
             with self.subTest(word):
                 self.assertIn(word, studies)
 
