@@ -42,12 +42,13 @@ Exit check(const Context& context, const RunOptions& options) {
   const study::Study study = read(context, options);
   const study::MotionSet motions = study::load_motions_together(context.world, study);
   const study::Evaluator evaluator(study, motions, study::summarize_together(context.world, study, motions, nullptr));
+  const parallel::NodeSize node = parallel::narrowest_node(context.world);
   std::string size;
   std::set<std::string> told;
   context.world.on_root([&] {
     study::tell_doubts(study, motions, told);
     const study::SweepSize found = study::size_of(study, study::Target(study), evaluator);
-    study::refuse_too_large(found);
+    study::refuse_too_large(found, node);
     size = study::told(found);
   });
   if (context.world.is_root()) fmt::print("{}# {}\n", study::expanded(study, ""), size);

@@ -134,9 +134,10 @@ class Sweep {
 
   // Before anything is made: the bins are laid over the first samples' intensities, which are known before any response is.
   void look_at_size() const {
+    const parallel::NodeSize node = parallel::narrowest_node(world_);
     world_.on_root([&] {
       const SweepSize size = size_of(study_, target_, evaluator_);
-      refuse_too_large(size);
+      refuse_too_large(size, node);
       if (const std::string room = room_told(size, folder_.path()); !room.empty())
         parallel::tell("doubtful: " + room + "\n");
     });

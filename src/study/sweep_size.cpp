@@ -1,7 +1,6 @@
 #include "study/sweep_size.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -81,13 +80,14 @@ std::string told(const SweepSize& size) {
                      all ? "" : fmt::format(" and {} for each node", bytes_text(size.counts_bytes)), memory);
 }
 
-void refuse_too_large(const SweepSize& size) {
-  const double memory = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (size.memory_bytes <= memory) return;
-  throw Error(fmt::format(
-      "what is counted takes {} in each rank, and this machine has {}: take fewer bins, capacities, second axes or "
-      "demands",
-      bytes_text(size.memory_bytes), bytes_text(memory)));
+void refuse_too_large(const SweepSize& size, const parallel::NodeSize& node) {
+  if (node.ranks * size.memory_bytes <= node.memory_bytes) return;
+  throw Error(
+      fmt::format("what is counted takes {} in each rank, and a node with {} of them has {}: take fewer bins, "
+                  "capacities, second axes "
+                  "or demands{}",
+                  bytes_text(size.memory_bytes), node.ranks, bytes_text(node.memory_bytes),
+                  size.memory_bytes <= node.memory_bytes ? ", or fewer ranks on a node" : ""));
 }
 
 std::string room_told(const SweepSize& size, const std::filesystem::path& folder) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <string>
 
+#include "parallel/node_size.hpp"
 #include "study/evaluator.hpp"
 #include "study/study.hpp"
 #include "study/target.hpp"
@@ -26,8 +27,8 @@ SweepSize size_of(const Study&, const Target&, const Evaluator&);
 // One sentence.
 std::string told(const SweepSize&);
 
-// Throws Error (Exit::usage) where the counts of a single rank do not fit into the memory of this machine.
-void refuse_too_large(const SweepSize&);
+// Throws Error (Exit::usage) where the counts of all ranks of a node do not fit into its memory.
+void refuse_too_large(const SweepSize&, const parallel::NodeSize&);
 
 // What is to be told where the file system of the folder has less room than the sweep will take; empty where it has.
 std::string room_told(const SweepSize&, const std::filesystem::path& folder);

@@ -4,6 +4,7 @@
 
 #include "base/exact_sum.hpp"
 #include "mpi/mpi_main.hpp"
+#include "parallel/node_size.hpp"
 
 namespace freestand::parallel {
 namespace {
@@ -29,6 +30,8 @@ TEST(Communicator, GatherKeepsRankOrderAndLengths) {
   ASSERT_EQ(all.size(), static_cast<std::size_t>(world().size()));
   for (std::size_t rank = 0; rank < all.size(); ++rank) EXPECT_EQ(all[rank], Words(rank, std::int64_t(rank)));
 }
+
+TEST(Communicator, CountsTheRanksOfTheNode) { EXPECT_EQ(narrowest_node(world()).ranks, world().size()); }
 
 TEST(Communicator, SumsAreExact) {
   Words values{std::int64_t{1} << 60, world().rank(), 1};
