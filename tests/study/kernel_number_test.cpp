@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <fstream>
-#include <map>
+#include <set>
 
 #include "base/random.hpp"
 #include "study/evaluator.hpp"
@@ -22,8 +22,7 @@ const std::string pulses =
     "motions: [{pulse: [A, B, C1, C2], period_s: {uniform: [0.4, 1.2]}, peak_acceleration_g: {uniform: [0.2, 1.2]}}]\n";
 const std::string records = "motions: [{records: \"*.csv\", scale_to: {pta_g: {uniform: [0.3, 1]}}}]\n";
 
-// The whole of the kernel once: models, impact laws, motions, and every effect beside both kinds of motions. New effects,
-// demands and intensities are not asked for: they change no number of old.
+// The whole of the kernel once: models, impact laws, motions, and every effect beside both kinds of motions.
 std::vector<std::string> studies() {
   std::vector<std::string> texts;
   for (const std::string& motions : {pulses, records}) {
@@ -97,6 +96,34 @@ std::vector<std::string> studies() {
   return texts;
 }
 
+// What stands under, beside and behind a block, how it begins, and the demands that a study must ask for.
+std::vector<std::string> surroundings() {
+  std::vector<std::string> texts;
+  const std::string sides = "slip_by_side: true\n", height = "acceleration_height_m: 1.2\n",
+                    forces = "contact_forces: true\n";
+  for (const std::string& motions : {pulses, records}) {
+    for (const std::string& more :
+         {std::string("legs: {vertical_frequency_hz: {uniform: [3, 6]}, vertical_damping: 0.05}\n"),
+          std::string(
+              "model: slide\nneighbour: {gap_m: {uniform: [0.01, 0.04]}, mass_kg: 300, mu_k: 0.2, static_ratio: "
+              "1.2, restitution: 0.4, side: left}\n"),
+          std::string("start: {rotation_rad: {uniform: [-0.1, 0.1]}, rotation_rate_radps: 0.1, slip_m: 0.02, "
+                      "slip_velocity_mps: 0.1}\n"),
+          forces +
+              "chain: {slack_m: 0.01, stiffness_npm: 1e5, strength_n: 2000, elevation_rad: {uniform: [-0.3, 0.6]}, "
+              "plan_angle_rad: 0.4, number: 2, damping_nspm: 200, height_m: 1.4, side: left, wall_gap_m: 0.02}\n",
+          std::string("effects: [{name: wall_impact, gap_m: {uniform: [0.01, 0.05]}, restitution: 0.4, other_gap_m: "
+                      "{uniform: [0.01, 0.05]}}]\n"),
+          std::string("effects: [{name: x, friction: \"mu*(1 + a*log(1 + rest/c))\", parameters: {a: 0.2, c_s: "
+                      "0.1}}]\n"),
+          sides, sides + "model: slide\n", height, height + "effects: [{name: offset_mass, eccentricity: 0.1}]\n",
+          forces, forces + "effects: [{name: moving_contents, mass_ratio: 0.2, frequency_hz: 3, damping: 0.05}]\n",
+          forces + "effects: [{name: flexible_legs, frequency_hz: 4, damping: 0.03}]\n"})
+      texts.push_back(block + friction + more + motions);
+  }
+  return texts;
+}
+
 void write_records(const std::filesystem::path& folder, const std::vector<int>& numbers) {
   std::filesystem::create_directories(folder);
   for (const int number : numbers) {
@@ -110,39 +137,47 @@ void write_records(const std::filesystem::path& folder, const std::vector<int>& 
   }
 }
 
-// Hashes the bits of the rows; every nan is one.
-std::uint64_t hash_of(const Evaluator& evaluator, std::uint64_t hash) {
+// The first twelve samples of each study.
+struct Rows {
+  std::vector<Column> columns;
   std::vector<double> values;
-  evaluator.append(0, 12, values);
-  const std::size_t width = evaluator.columns().size();
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const std::string& column = evaluator.columns()[i % width].name;
-    const bool old_demand = column == "edp_peak_slip_m" || column == "edp_residual_slip_m" || column == "edp_delta" ||
-                            column == "edp_slid_path_m" || column == "edp_peak_rotation_over_alpha" ||
-                            column == "edp_peak_acceleration_g" || column == "edp_impacts" ||
-                            column == "edp_overturned" || column == "edp_connection_failed" ||
-                            column == "edp_wall_hit" || column == "edp_wall_speed_mps";
-    const bool new_parameter = column == "effects_wall_impact_side" || column == "effects_wall_impact_other_gap_m";
-    if ((column.starts_with("edp_") && !old_demand) || new_parameter) continue;
-    const auto bits = std::isnan(values[i]) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(values[i]);
-    hash = random::mix(hash ^ bits);
-  }
-  return hash;
-}
-
-TEST(KernelNumber, IsThatOfTheNumbersThisProgramGives) {
+};
+std::vector<Rows> all_rows() {
   const freestand::test::Scratch scratch("kernel_number");
   write_records(scratch.folder(), {1, 2});
   write_records(scratch / "across", {3, 5});
-  std::uint64_t hash = 0;
-  for (const std::string& text : studies()) {
+  std::vector<Rows> all;
+  std::vector<std::string> texts = studies();
+  for (const std::string& text : surroundings()) texts.push_back(text);
+  for (const std::string& text : texts) {
     const Study study = parse_study("seed: 3\nsamples: 12\nfragility: {im: pta_g, edp: [peak_slip_m]}\n" + text,
                                     scratch / "study.yaml", registries());
-    hash = hash_of(Evaluator(study, load_motions(study)), hash);
+    const Evaluator evaluator(study, load_motions(study));
+    all.push_back({evaluator.columns(), {}});
+    evaluator.append(0, 12, all.back().values);
   }
+  return all;
+}
+
+// Of the bits of all columns; every nan is one.
+TEST(KernelNumber, IsThatOfTheNumbersThisProgramGives) {
+  std::uint64_t hash = 0;
+  for (const Rows& rows : all_rows())
+    for (const double value : rows.values) {
+      const auto bits = std::isnan(value) ? ~std::uint64_t{0} : std::bit_cast<std::uint64_t>(value);
+      hash = random::mix(hash ^ bits);
+    }
   EXPECT_EQ(kernel_number, static_cast<std::uint32_t>(hash))
       << fmt::format("samples have other bits than before: in src/study/kernel_number.hpp write 0x{:08x}",
                      static_cast<std::uint32_t>(hash));
+}
+
+TEST(KernelNumber, SeesEveryDemand) {
+  std::set<std::string> seen;
+  for (const Rows& rows : all_rows())
+    for (std::size_t i = 0; i < rows.values.size(); ++i)
+      if (std::isfinite(rows.values[i]) && rows.values[i] != 0) seen.insert(rows.columns[i % rows.columns.size()].name);
+  for (const auto& demand : registries().edps) EXPECT_TRUE(seen.contains("edp_" + demand.name)) << demand.name;
 }
 
 }  // namespace
