@@ -36,7 +36,7 @@ class Progress {
     std::FILE* stream = stderr;
     bool terminal = on_terminal();
     double terminal_interval_s = 0.2;
-    double log_interval_s = 60;
+    double log_interval_s = 10;
     bool quiet = false;  // say nothing
   };
 
