@@ -296,7 +296,7 @@ def read_diagnosis(folder):
         [_candidate(node) for node in root.nodes("candidates", needed=True)], root.number("noise_floor"),
         recovered.number("base_mu") if recovered else np.nan,
         [_table(node, columns) for node in recovered.nodes("tables")] if recovered else [], suggested,
-        [node.row("p level simulations told_apart", "question about") for node in root.nodes("tests_of_chance")], _proposal(root.node("proposed_law")))
+        [node.row("p level simulations tries told_apart", "question about") for node in root.nodes("tests_of_chance")], _proposal(root.node("proposed_law")))
 
 
 def _name(root, folder):

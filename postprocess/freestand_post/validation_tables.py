@@ -129,10 +129,15 @@ def chances(results):
     """How likely chance is to do what the verdict rests on."""
     if not results.diagnosis:
         return []
-    return [{"question": _question(row), "p": words.number(row["p"], 2) if row["p"] * row["simulations"] > 1.5 else
-             f"less than {words.number(1 / max(row['simulations'], 1), 1)}", "sets": words.count(row["simulations"]),
+    return [{"question": _question(row), "p": words.number(row["p"], 2) if row["p"] * row["simulations"] > 1.5 * _tries(row) else
+             f"less than {words.number(_tries(row) / max(row['simulations'], 1), 1)}", "sets": words.count(row["simulations"]),
              "apart": f"{100 * row['told_apart']:.0f} %" if math.isfinite(row["told_apart"]) else ""}
             for row in results.diagnosis.chances]
+
+
+def _tries(row):
+    tries = row.get("tries", math.nan)
+    return tries if math.isfinite(tries) else 1
 
 
 def _question(row):
@@ -142,6 +147,8 @@ def _question(row):
         return f"that {_named(row['about'])} leaves as much where it is the truth"
     if row["question"] == "does one more help":
         return f"that one more effect gains as much where {_named(row['about'])} is the truth"
+    if row["question"] == "is its gain luck":
+        return f"that any effect gains as much as {_named(row['about'])} by what the floor's noise leaves of its own history"
     best, _, rival = row["about"].partition(" before ")
     return f"that {_named(best)} leads {_named(rival)} by as much where {_named(rival)} is the truth"
 

@@ -68,8 +68,8 @@ void tell_diagnosis(const Json& json, const std::string& file) {
   for (const auto& c : json["tests_of_chance"])
     fmt::print(
         "{:<26} {:<52} p {}{:.4f} ({} sets{})\n", c["question"].get<std::string>(), c["about"].get<std::string>(),
-        c["p"].get<double>() * c["simulations"].get<double>() < 1 ? "< " : "", c["p"].get<double>(),
-        c["simulations"].get<int>(),
+        c["p"].get<double>() * c["simulations"].get<double>() < c["tries"].get<double>() ? "< " : "",
+        c["p"].get<double>(), c["simulations"].get<int>(),
         c["told_apart"].is_null() ? "" : fmt::format(", told apart in {:.0f} %", 100 * c["told_apart"].get<double>()));
   for (const char* list : {"sentences", "findings"})
     for (const auto& sentence : json[list]) fmt::print("* {}\n", sentence.get<std::string>());

@@ -305,6 +305,7 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
                                        {"observed", c.observed},
                                        {"chance_reaches", c.usual},
                                        {"simulations", c.simulations},
+                                       {"tries", c.tries},
                                        {"told_apart", number_or_null(c.told_apart)}});
   json["sensors"] = Json::object();
   for (const Channel channel : {Channel::slip, Channel::rotation}) {

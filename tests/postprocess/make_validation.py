@@ -131,7 +131,7 @@ def recovered():
 
 def chance(question, about, p):
     return {"question": question, "about": about, "p": p, "level": 0.05, "observed": 30.0, "chance_reaches": 10.0, "simulations": 2000,
-            "told_apart": 0.92 if question == "is the lead chance" else None}
+            "tries": 13 if question == "is its gain luck" else 1, "told_apart": 0.92 if question == "is the lead chance" else None}
 
 
 def diagnosis(folder, verdict="missing", **changes):
@@ -150,6 +150,6 @@ def diagnosis(folder, verdict="missing", **changes):
              "noise_floor": 1.08, "base": candidate("", 17.7), "candidates": found, "recovered_force": recovered(),
              "suggested_motion": suggestion if verdict == "ambiguous" else None,
              "tests_of_chance": [chance("does an effect help", "13 effects", 0.0005)]
-             + [chance("is it enough", "the model as it is", 0.0005), chance("does one more help", names[0], 0.4)]
+             + [chance("is it enough", "the model as it is", 0.0005), chance("does one more help", names[0], 0.4), chance("is its gain luck", names[0], 0.0065)]
              + [chance("is the lead chance", f"{names[0]} before {name}", p) for name, p in ((names[1], 0.31 if rivals > 1 else 0.012), (names[2], 0.0005))]}
     return write(folder, "diagnosis.json", value | changes)

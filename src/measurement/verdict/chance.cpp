@@ -181,17 +181,14 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
   };
   VectorXd measured = sum.against;
   measured.segment(p - deviate, deviate) -= deviations(known);
-  Chance chance{.question = help_question, .about = {}, .observed = largest_gain(measured)};
+  Chance chance{.question = help_question, .about = {}, .observed = largest_gain(measured), .tries = tries};
   const NoiseDraws noise(sum, bench);
-  weigh(
-      chance,
-      [&](std::uint64_t s) {
-        VectorXd z = noise.draw(s);
-        for (Index d = 0; d < deviate; ++d)
-          z += sum.gram.col(p - deviate + d) * standard_normal(s, (1ULL << 41) + static_cast<std::uint64_t>(d));
-        return largest_gain(z);
-      },
-      tries);
+  weigh(chance, [&](std::uint64_t s) {
+    VectorXd z = noise.draw(s);
+    for (Index d = 0; d < deviate; ++d)
+      z += sum.gram.col(p - deviate + d) * standard_normal(s, (1ULL << 41) + static_cast<std::uint64_t>(d));
+    return largest_gain(z);
+  });
   return chance;
 }
 
@@ -203,12 +200,12 @@ Chance chance_of_steady_gain(const Bench& bench, const ModelFit& base, const Mod
   return chance;
 }
 
-void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw, std::size_t tries) {
+void weigh(Chance& chance, const std::function<double(std::uint64_t)>& draw) {
   std::vector<double> made;
   for (std::uint64_t s = 0; s < chance_simulations; ++s) made.push_back(draw(s));
   const auto more = std::count_if(made.begin(), made.end(), [&](double m) { return m >= chance.observed; });
   chance.simulations = static_cast<int>(chance_simulations);
-  const auto of = static_cast<double>(tries), all = static_cast<double>(made.size());
+  const auto of = static_cast<double>(chance.tries), all = static_cast<double>(made.size());
   chance.p = std::min(1.0, of * (1 + static_cast<double>(more)) / (1 + all));
   const auto place = made.begin() + static_cast<long>((1 - chance_level / of) * all);
   std::nth_element(made.begin(), place, made.end());

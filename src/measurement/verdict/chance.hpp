@@ -17,7 +17,7 @@ namespace freestand::measurement {
 
 inline constexpr const char *help_question = "does an effect help", *lead_question = "is the lead chance",
                             *misfit_question = "is it enough", *another_question = "does one more help",
-                            *steady_question = "does it help before the floor's noise turns the history";
+                            *steady_question = "is its gain luck";
 
 struct Chance {
   std::string question, about;  // one of these, and which effects
@@ -25,6 +25,7 @@ struct Chance {
   double usual = 0;             // what chance reaches in one set of twenty
   double p = 1;
   int simulations = 0;
+  std::size_t tries = 1;  // what is asked about is the best of so many: p is so many times the share of simulations
   // Leads: in which share of data from the best it would exceed what chance reaches, so that the two were told apart.
   double told_apart = std::numeric_limits<double>::quiet_NaN();
   bool within_tolerances = false;  // chance only if what the laboratory states is off within its tolerances
@@ -38,9 +39,9 @@ struct Chance {
 inline constexpr std::uint64_t chance_simulations =
     2000;  // a p value of 0.05 is known to 0.005 (one standard deviation)
 
-// Of data made again and again, draw(s) saying what is asked of the s-th: p, and the value that chance reaches in one of twenty. tries: what
-// is asked about is the best of so many, of which each may reach it (Bonferroni).
-void weigh(Chance&, const std::function<double(std::uint64_t s)>& draw, std::size_t tries = 1);
+// Of data made again and again, draw(s) saying what is asked of the s-th: p, and the value that chance reaches in one of twenty; of
+// Chance::tries one may (Bonferroni).
+void weigh(Chance&, const std::function<double(std::uint64_t s)>& draw);
 // Of a lead that was weighed: draw(s) saying what the best leads by in data from itself.
 void weigh_power(Chance&, const std::function<double(std::uint64_t s)>& draw);
 

@@ -9,16 +9,10 @@
 
 #include "base/digits.hpp"
 #include "measurement/laboratory/laboratory.hpp"
+#include "measurement/verdict/answers.hpp"
 
 namespace freestand::measurement {
 namespace {
-
-// Where it was asked whether any effect helps: the answer.
-const Chance* help_of(const Diagnosis& d) {
-  const auto found =
-      std::find_if(d.chances.begin(), d.chances.end(), [](const Chance& c) { return c.question == help_question; });
-  return found == d.chances.end() ? nullptr : &*found;
-}
 
 class Decision {
  public:
@@ -57,6 +51,7 @@ class Decision {
   static std::string joined(const std::vector<std::string>& words) {
     return fmt::format("{}", fmt::join(words, " and "));
   }
+  static std::string whole(const Candidate& c) { return c.effects.empty() ? "the model as it is" : joined(c.effects); }
   void say(std::string sentence) { d_.sentences.push_back(std::move(sentence)); }
   double pooled_left_out(const Candidate& c) const {
     return pooled(bench_, tests_of(bench_.data(), Role::calibration), c.fit.left_out).error;
@@ -146,7 +141,7 @@ class Decision {
     if (missed_by(larger) >= missed_by(best) || left_out(larger) >= left_out(best)) return false;
     if (histories_ && larger.effects.size() > best.effects.size()) {
       const Candidate* part = best_part(larger);
-      if (part && chance_of(another_question, whole(*part), [&] { return ask_.another(*part); })) return false;
+      if (part && is_chance(d_, another_question, whole(*part), [&] { return ask_.another(*part); })) return false;
     }
     return !by_chance(larger, best);
   }
@@ -178,12 +173,12 @@ class Decision {
   }
   // Enough, but only if what the laboratory states is off within its tolerances: so may others be.
   bool within_tolerances(const Candidate& c) const {
-    const Chance* chance = told_of(misfit_question, whole(c));
+    const Chance* chance = answer(d_, misfit_question, whole(c));
     return chance && chance->within_tolerances;
   }
 
   bool by_chance(const Candidate& best, const Candidate& rival) {
-    return chance_of(lead_question, lead_of(best, rival), [&] { return ask_.lead(best, rival); });
+    return is_chance(d_, lead_question, lead_of(best, rival), [&] { return ask_.lead(best, rival); });
   }
   static std::string lead_of(const Candidate& best, const Candidate& rival) {
     return fmt::format("{} before {}", joined(best.effects), joined(rival.effects));
@@ -191,7 +186,7 @@ class Decision {
   // Which of these it was that makes the rival as good.
   std::string why_as_good(const Candidate& best, const Candidate& rival) const {
     const std::string name = joined(rival.effects), other = joined(best.effects);
-    const Chance* lead = told_of(lead_question, lead_of(best, rival));
+    const Chance* lead = answer(d_, lead_question, lead_of(best, rival));
     if (lead && !lead->apart())
       return fmt::format("{} imitates {} (such tests tell them apart in {:.2g} % of sets, as chance does)", name, other,
                          100 * lead->told_apart);
@@ -201,20 +196,6 @@ class Decision {
                          other);
     if (missed_by(rival) <= missed_by(best)) return fmt::format("{} fits all tests as closely as {}", name, other);
     return fmt::format("{} is enough as well if what is stated is off within its tolerances", name);
-  }
-
-  static std::string whole(const Candidate& c) { return c.effects.empty() ? "the model as it is" : joined(c.effects); }
-  const Chance* told_of(const std::string& question, const std::string& about) const {
-    const auto found = std::find_if(d_.chances.begin(), d_.chances.end(),
-                                    [&](const Chance& c) { return c.question == question && c.about == about; });
-    return found == d_.chances.end() ? nullptr : &*found;
-  }
-  // Asked once, and told.
-  bool chance_of(const char* question, const std::string& about, const std::function<Chance()>& ask) {
-    if (const Chance* known = told_of(question, about)) return known->chance();
-    d_.chances.push_back(ask());
-    d_.chances.back().about = about;
-    return d_.chances.back().chance();
   }
 
   // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
@@ -234,10 +215,10 @@ class Decision {
     return (help() ? !help()->chance() : gains) && !helps_by_luck(best);
   }
   bool helps_by_luck(const Candidate& c) {
-    return chance_of(steady_question, whole(c), [&] { return ask_.steady(c); });
+    return is_chance(d_, steady_question, whole(c), [&] { return ask_.steady(c); });
   }
   bool was_luck(const Candidate& c) const {
-    const Chance* chance = told_of(steady_question, whole(c));
+    const Chance* chance = answer(d_, steady_question, whole(c));
     return chance && chance->chance();
   }
   // On tests left out, by what the table shows.
@@ -266,13 +247,13 @@ class Decision {
 
   // A number that is stated wrongly, and no law that comes near: put right it leaves noise alone.
   bool enough(const Candidate& c) {
-    return !histories_ || chance_of(misfit_question, whole(c), [&] { return ask_.enough(c); }) ||
+    return !histories_ || is_chance(d_, misfit_question, whole(c), [&] { return ask_.enough(c); }) ||
            (c.explained <= adequate && !c.laboratory);
   }
 
   // Said where a model that is near enough still leaves more than chance.
   std::string what_remains(const Candidate& c) const {
-    const Chance* chance = told_of(misfit_question, whole(c));
+    const Chance* chance = answer(d_, misfit_question, whole(c));
     if (!chance || chance->chance()) return "";
     return fmt::format(
         "; it still leaves {:.2f} where noise explains 1, more than chance (p {:.2g}), but no more than one reading "
