@@ -130,7 +130,7 @@ def chances(results):
     if not results.diagnosis:
         return []
     return [{"question": _question(row), "p": words.number(row["p"], 2) if row["p"] * row["simulations"] > 1.5 * _tries(row) else
-             f"less than {words.number(_tries(row) / max(row['simulations'], 1), 1)}", "sets": words.count(row["simulations"]),
+             f"less than {words.number(_tries(row) / max(row['simulations'], 1), 2)}", "sets": words.count(row["simulations"]),
              "apart": f"{100 * row['told_apart']:.0f} %" if math.isfinite(row["told_apart"]) else ""}
             for row in results.diagnosis.chances]
 
