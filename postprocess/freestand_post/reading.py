@@ -63,9 +63,9 @@ class Sweep:
     overturning: dict        # empty where it is not there
     draws: dict              # column -> values; empty without samples.h5
     outcome: np.ndarray      # [sample] int
-    peak_acceleration_g: np.ndarray  # [sample] of the equipment; empty without samples.h5
     motions: list            # names
     is_record: np.ndarray    # [motion] 1: a record, 0: a family of pulses, 2: what a floor of a building does under a record
+    is_pair: np.ndarray      # [motion] does it shake the floor in both horizontal directions?
     ground: np.ndarray       # [motion] the record of the ground on which a floor hangs; of any other motion itself
     amplification: dict      # (building, storey) -> {record: peak acceleration of that floor over the ground's}; empty without a building
 
@@ -265,10 +265,10 @@ def _json(path):
 
 
 def _samples(path):
-    """Draws, outcomes, peak accelerations, and of motions the names, which are records, on which they hang, and what floors do; empty
-    without samples.h5."""
+    """Draws, outcomes, and of motions the names, which are records, which are pairs, on which they hang, and what floors do; empty without
+    samples.h5."""
     if not path.exists():
-        return {}, np.zeros(0, int), np.zeros(0), [], np.zeros(0, int), np.zeros(0, int), {}
+        return {}, np.zeros(0, int), [], np.zeros(0, int), np.zeros(0, bool), np.zeros(0, int), {}
     with _open(path, "freestand-samples/2") as root:
         if "samples" not in root or "outcome" not in root["samples"]:
             raise Problem(f"{path} has no /samples/outcome: it is incomplete; finish it with `freestand sweep --resume`")
@@ -279,11 +279,11 @@ def _samples(path):
             if not skip and np.issubdtype(group[name].dtype, np.number):
                 draws[name] = _numbers(group, name)
         outcome = _numbers(group, "outcome").astype(int)
-        felt = _numbers(group, "edp_peak_acceleration_g") if "edp_peak_acceleration_g" in group else np.zeros(0)
         alike = int(root.attrs.get("samples_alike", outcome.size))  # of later ones only those of some intensities were integrated
         motions = [_text(item) for item in root["motions/name"][()]] if "motions/name" in root else []
         group = _numbers(root["motions"], "group") if "motions/group" in root else np.zeros(0)  # -1: pulses
         is_record = (group >= 0).astype(int)
+        is_pair = _numbers(root["motions"], "cross") > 0 if "motions/cross" in root else np.zeros(len(motions), bool)
         ground, amplification = np.arange(len(motions)), {}
         if "ground" in root.get("motions", {}):
             ground, storey, peak = (_numbers(root["motions"], name) for name in ("ground", "storey", "pga_mps2"))
@@ -292,8 +292,8 @@ def _samples(path):
             amplification = buildings.amplification(motions, ground, storey, peak)
         if "storey" in draws and "motion" in draws:  # the file says 0 of what stands in no building
             draws["storey"][~buildings.stand_in_one(ground)[draws["motion"].astype(int)]] = np.nan
-    return ({name: values[:alike] for name, values in draws.items() if values.shape == outcome.shape}, outcome[:alike], felt[:alike],
-            motions, is_record, ground, amplification)
+    return ({name: values[:alike] for name, values in draws.items() if values.shape == outcome.shape}, outcome[:alike], motions, is_record,
+            is_pair, ground, amplification)
 
 
 def read_sweep(folder):
@@ -327,10 +327,10 @@ def _read_sweep(folder):
     names = attributes.get("outcome_names", OUTCOMES)
     names = names.split() if isinstance(names, str) else names
     outcomes = dict(zip(names, np.atleast_1d(attributes.get("outcome_counts", [])).astype(int).tolist()))
-    draws, outcome, felt, motions, is_record, ground, amplification = _samples(folder / summary.get("samples_in", "") / "samples.h5")
+    draws, outcome, motions, is_record, is_pair, ground, amplification = _samples(folder / summary.get("samples_in", "") / "samples.h5")
     return Sweep(folder, attributes, summary, outcomes or summary.get("outcomes", {}), str(attributes.get("im", "im")),
-                 str(attributes.get("im_unit", "1")), edge, centre, _in_order(edps, summary), overturning, draws, outcome, felt, motions,
-                 is_record, ground, amplification)
+                 str(attributes.get("im_unit", "1")), edge, centre, _in_order(edps, summary), overturning, draws, outcome, motions,
+                 is_record, is_pair, ground, amplification)
 
 
 def _in_order(edps, summary):

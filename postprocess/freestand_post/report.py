@@ -11,7 +11,6 @@ from . import decisions_report, over_intensities, pictures, reproduce_report, st
 from .designs import Designs
 from .model import kept_fits
 from .pictures.coverage import classes, swept
-from .plane import in_plane
 from .reading import COUNTED, FITTED, OUTCOMES, REJECTED, TESTED, TOO_FEW, UNPROVEN, History, Sweep
 from .reading_decisions import Risk
 from .reading_reproduce import Reproduction
@@ -184,7 +183,7 @@ def _motions(sweep):
     pulses = [name for name, record in zip(sweep.motions, sweep.is_record) if not record]
     found = []
     if records:
-        pairs = {(True,): " in two horizontal directions", (False, True): ", some of them in two horizontal directions"}.get(tuple(sorted(in_plane(sweep))), "")
+        pairs = {(True,): " in two horizontal directions", (False, True): ", some of them in two horizontal directions"}.get(tuple(sorted(set(sweep.is_pair[sweep.is_record == 1].tolist()))), "")
         found.append((f"one of {words.plural(len(records), 'record')}" if len(records) > 1 else "one record") + pairs + _upstairs(sweep))
     if pulses:
         found.append(f"a pulse of {words.plural(len(pulses), 'kind')} ({', '.join(pulses)})" if len(pulses) > 1 else f"a pulse {pulses[0]}")

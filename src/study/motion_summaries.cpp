@@ -202,6 +202,14 @@ io::MotionRows motion_rows(const MotionSet& motions, const MotionSummaries& summ
          ColumnKind::integer});
     rows.table.columns.push_back({"storey", "1", "how many floors above the ground", ColumnKind::integer});
   }
+  const auto in_plane = [&](std::size_t i) { return !motions.is_pulse(i) && !motions.motion(i).cross_mps2.empty(); };
+  bool pairs = false;
+  for (std::size_t i = 0; i < motions.size(); ++i) pairs = pairs || in_plane(i);
+  if (pairs)
+    rows.table.columns.push_back(
+        {"cross", "1",
+         "1: the floor shakes in both horizontal directions, all else here is of the first; 0: along a line",
+         ColumnKind::integer});
   for (const motion::MotionSummary& s : summaries)
     if (!s.is_pulse) rows.sa_period_s = s.spectrum.period_s();
   for (std::size_t i = 0; i < summaries.size(); ++i) {
@@ -211,6 +219,7 @@ io::MotionRows motion_rows(const MotionSet& motions, const MotionSummaries& summ
     if (floors)
       values.insert(values.end(),
                     {static_cast<double>(motions.ground(i)), static_cast<double>((*motions.entries)[i].storey)});
+    if (pairs) values.push_back(in_plane(i));
     rows.table.values.insert(rows.table.values.end(), values.begin(), values.end());
     for (const double period : rows.sa_period_s)
       rows.sa_mps2.push_back(motion::spectral_acceleration_mps2(s, period, 1));

@@ -108,45 +108,17 @@ class Storeys(unittest.TestCase):
 
 
 class Pairs(unittest.TestCase):
-    """Two records, of which the second column of the file says nothing of a second direction."""
-    records = [("r1.csv", 0, 0, 0, 2.0), ("r2.csv", 1, 1, 0, 2.0)]
+    """Whatever names them: a table's column `cross`, or `cross_records`."""
 
-    def said(self, outcome=(0,), over=1.0, entry="{records: pairs.csv}", model="slide", effects="[]", table="", **columns):
-        """over: peak acceleration of the block over that of the floor's first direction, of the samples in turn."""
-        sweep = sweep_under(self.records, [0, 1, 1, 0], outcome=outcome, pta_g=0.2, edp_peak_acceleration_g=0.2 * np.array(over), storey=None, **columns)
-        sweep.attributes.update(study=f"model: {model}\nmotions:\n  - {entry}\n", effects=effects)
-        with tempfile.TemporaryDirectory() as kept:
-            sweep.folder = pathlib.Path(kept) / "out"
-            sweep.folder.mkdir()
-            (sweep.folder / "study.yaml").write_text("paths_from: ..\n")
-            if table:
-                (sweep.folder.parent / "pairs.csv").write_text(table)
-            return report._motions(sweep)
+    def said(self, is_pair):
+        sweep = sweep_under([("r1.csv", 0, 0, 0, 2.0), ("r2.csv", 1, 1, 0, 2.0)], [0, 1], storey=None)
+        sweep.is_pair = np.array(is_pair)
+        return report._motions(sweep)
 
-    def test_samples_at_rest_tell(self):
-        """They feel both directions of the floor, of which pta_g is the first alone: whatever named the pairs, and wherever that is now."""
-        self.assertEqual(self.said(over=1.2), "one of 2 records in two horizontal directions")
-        self.assertEqual(self.said(over=1 + 1e-14), "one of 2 records")
-        self.assertEqual(self.said(over=(1.2, 1.0, 1.0, 1.2)), "one of 2 records, some of them in two horizontal directions")
-        self.assertEqual(self.said(over=1.2, model="slide_rock"), "one of 2 records")  # legs shake such a block harder
-        self.assertEqual(self.said(over=1.2, effects='[{"name": "flexible_legs"}]'), "one of 2 records")
-
-    def test_where_all_move_the_study_and_its_tables_tell(self):
-        table = "# of two sensors\nfile,cross\nr1.csv,r1b.csv\nr2.csv,r2b.csv\n"
-        pairs, line = "one of 2 records in two horizontal directions", "one of 2 records"
-        for said, told in ((pairs, {"table": table}), (pairs, {"entry": "{records: along/*, cross_records: across/*}"}),
-                           (line, {"table": "file\nr1.csv\nr2.csv\n"}), (line, {"table": "file,cross\nr1.csv,\nr2.csv,\n"}), (line, {}),
-                           (line + ", some of them in two horizontal directions", {"table": table.replace("r2b.csv", "")})):
-            with self.subTest(**told):
-                self.assertEqual(self.said(outcome=1, **told), said)
-                shaken_vertically = {"effects": '[{"name": "vertical_shaking"}]', "over": 1.2}  # what stays at rest feels that as well
-                self.assertEqual(self.said(**told, **shaken_vertically), said)
-
-    def test_pairs_that_are_turned_into_one_direction_are_no_pairs(self):
-        self.assertEqual(self.said(outcome=1, entry="{records: along/*, cross_records: across/*, rotate_deg: 30}"), "one of 2 records")
-
-    def test_friction_that_differs_between_directions_is_of_pairs(self):
-        self.assertEqual(self.said(outcome=1, friction_ratio_across=0.7), "one of 2 records in two horizontal directions")
+    def test_records_in_both_horizontal_directions(self):
+        self.assertEqual(self.said([True, True]), "one of 2 records in two horizontal directions")
+        self.assertEqual(self.said([False, False]), "one of 2 records")
+        self.assertEqual(self.said([True, False]), "one of 2 records, some of them in two horizontal directions")
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "study/evaluator.hpp"
+#include "study/motion_summaries.hpp"
 #include "study/simulate.hpp"
 #include "study_text.hpp"
 #include "support/scratch.hpp"
@@ -72,6 +73,12 @@ TEST_F(CrossRecords, ATableNamesThem) {
   const MotionSet set = load_motions(study("{records: table.csv}"));
   EXPECT_FALSE(set.motion(0).cross_mps2.empty());
   EXPECT_TRUE(set.motion(1).cross_mps2.empty());
+  const Table told = motion_rows(set, summarize(set, {1.0})).table;
+  ASSERT_EQ(told.columns.back().name, "cross");
+  EXPECT_EQ(told.at(0, told.columns.size() - 1), 1);
+  EXPECT_EQ(told.at(1, told.columns.size() - 1), 0);
+  const MotionSet lines = load_motions(study("{records: \"along/*\"}"));
+  EXPECT_NE(motion_rows(lines, summarize(lines, {1.0})).table.columns.back().name, "cross");
   std::ofstream(folder_ / "table.csv") << "file,cross\nalong/a.csv,across/none.csv\n";
   EXPECT_THAT(text_of([&] { study("{records: table.csv}"); }), HasSubstr("across/none.csv is not there"));
   std::ofstream(folder_ / "table.csv") << "file\nalong/a.csv\n";

@@ -149,7 +149,7 @@ class Diagnoser : PairSearch {
     if (kind_of_set(bench_) != Kind::history || enough(out_.base.fit)) return {};
     for (const Candidate& c : out_.candidates)
       if (c.visible && c.fit.left_out_refitted && enough(c.fit)) return {};
-    const auto& [stated, judge] = stated_beside(out_.base.fit);
+    const auto [stated, judge] = stated_beside(out_.base.fit);
     const std::string off = most_off(stated);
     if (off.empty() || !chance_of_misfit(bench_, judge, out_.base.fit, stated.misfit).chance()) return {};
     return fmt::format(
@@ -168,8 +168,8 @@ class Diagnoser : PairSearch {
            {lead, [&](const Candidate& c) { return chance_of_misfit_of(c.fit); },
             [&](const Candidate& c) { return chance_of_another(c); },
             [&](const Candidate& c) {
-              return chance_of_steady_gain(bench_, out_.base.fit, c.fit, tried_alone().size(), jobs_,
-                                           out_.friction_scatter);
+              return chance_of_steady_gain(bench_, out_.base.fit, c.fit, std::max<std::size_t>(1, tried_alone().size()),
+                                           jobs_, out_.friction_scatter);
             }});
   }
 

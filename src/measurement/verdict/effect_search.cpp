@@ -103,22 +103,26 @@ Chance EffectSearch::chance_of_misfit_of(const ModelFit& fit) const {
   const Judge judge = judge_of(fit);
   const Chance plain = chance_as_stated(judge, fit);
   if (plain.chance() || fit.model.effects.size() == base_.effects.size()) return plain;
-  const Deviated& deviated = stated_beside(fit);
+  const Deviated deviated = stated_beside(fit);
   Chance allowed = chance_of_misfit(bench_, deviated.judge, fit, deviated.stated.misfit);
   allowed.within_tolerances = allowed.chance();
   return allowed;
 }
 
-const EffectSearch::Deviated& EffectSearch::stated_beside(const ModelFit& fit) const {
+EffectSearch::Deviated EffectSearch::stated_beside(const ModelFit& fit) const {
   const std::vector<std::string> effects = effects_of(fit, base_);
   const std::tuple asked(effects, fit.x, out_.friction_scatter);
-  if (const auto known = beside_.find(asked); known != beside_.end()) return known->second;
+  if (const auto known = beside_.find(asked); known != beside_.end()) {
+    const auto& [first, stated] = known->second;
+    return {stated, judge_of(first.model, first.x)};
+  }
   const auto found = deviated_.find(effects);
   const AsStated first =
       as_stated(bench_, judge_of(fit), fit, jobs_, found == deviated_.end() ? std::vector<ModelFit>{} : found->second);
-  Judge judge = judge_of(first.model, first.x);
-  AsStated stated = as_stated(bench_, judge, fit, jobs_, {{.model = first.model, .x = first.x}});
-  return beside_.emplace(asked, Deviated{std::move(stated), std::move(judge)}).first->second;
+  Deviated deviated{{}, judge_of(first.model, first.x)};
+  deviated.stated = as_stated(bench_, deviated.judge, fit, jobs_, {{.model = first.model, .x = first.x}});
+  beside_.emplace(asked, std::pair(first, deviated.stated));
+  return deviated;
 }
 
 bool EffectSearch::look_for_deviations(const Candidate& c) {
@@ -150,7 +154,7 @@ Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
   std::vector<const ModelFit*> tried;
   for (const ModelFit& fit : fits) tried.push_back(&fit);
   if (tried.empty()) return {.question = another_question, .about = {}};
-  const auto& [stated, judge] = stated_beside(without);
+  const auto [stated, judge] = stated_beside(without);
   Chance chance = chance_of_gain(bench_, judge, without, tried, jobs_, &stated);
   chance.question = another_question;
   return chance;

@@ -59,7 +59,7 @@ class EffectSearch {
     AsStated stated;
     Judge judge;
   };
-  const Deviated& stated_beside(const ModelFit&) const;
+  Deviated stated_beside(const ModelFit&) const;
   // Looks for it as for an effect, by fits with one of these numbers free. False: it was looked for, or none changes anything.
   bool look_for_deviations(const Candidate&);
   // With nothing that is stated off.
@@ -81,8 +81,9 @@ class EffectSearch {
  private:
   Judge judge_of(const ModelSpec&, const Values& x) const;
   std::map<std::vector<std::string>, std::vector<ModelFit>> deviated_;  // what that found beside which effects
-  // Each asked once: of effects, numbers, and how friction scatters.
-  mutable std::map<std::tuple<std::vector<std::string>, Values, double>, Deviated> beside_;
+  // What stated_beside() found, each once, of effects, numbers, and how friction scatters: by the fit's own judge, where the judge that it
+  // returns stands, and by that one.
+  mutable std::map<std::tuple<std::vector<std::string>, Values, double>, std::pair<AsStated, AsStated>> beside_;
 };
 
 }  // namespace freestand::measurement
