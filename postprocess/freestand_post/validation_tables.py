@@ -148,7 +148,7 @@ def _question(row):
     if row["question"] == "does one more help":
         return f"that one more effect gains as much where {_named(row['about'])} is the truth"
     if row["question"] == "is its gain luck":
-        return f"that any effect gains as much as {_named(row['about'])} by what the floor's noise leaves of its own history"
+        return f"that one of all effects tried gains as much as {_named(row['about'])} by the readings which the floor's noise does not turn elsewhere"
     best, _, rival = row["about"].partition(" before ")
     return f"that {_named(best)} leads {_named(rival)} by as much where {_named(rival)} is the truth"
 
