@@ -77,7 +77,7 @@ class Slurm(InFolder):
         while_it_sweeps = [["--signal=TERM"]] + [["--batch", "--signal=USR1"]] * ("FREESTAND_LONG_TESTS" in os.environ)
         for times, options in enumerate(while_it_sweeps, 1):
             before = self.blocks()
-            self.wait_until(lambda: self.blocks() > before + 2, "blocks")
+            self.wait_until(lambda: self.blocks() > before, "blocks")
             self.signal(*options)
             self.is_queued_again(times)
             self.assertFalse((self.out / "samples.h5").exists())
