@@ -26,18 +26,14 @@ namespace fs = std::filesystem;
 // the root, which speaks for all, goes first.
 constexpr double patience_of_root_s = 7, patience_of_others_s = 8;
 
-// What is finished, as a number that is another one when there is more: by the blocks, and by when samples.h5 was written.
+// What is finished, as a number that is another one when there is more, and 0 where there is nothing: by the blocks, and by when samples.h5 was
+// written (less than 0 for the clock of some libraries).
 std::int64_t finished_in(const fs::path& folder) {
   std::error_code error;
   std::int64_t finished = 0;
   if (fs::exists(samples_path(folder), error))
     finished = fs::last_write_time(samples_path(folder), error).time_since_epoch().count();
   return finished + parallel::count_finished_blocks(blocks_path(folder));
-}
-
-bool anything_finished_in(const fs::path& folder) {
-  std::error_code error;
-  return fs::exists(samples_path(folder), error) || parallel::count_finished_blocks(blocks_path(folder)) > 0;
 }
 
 fs::path note_path(const fs::path& folder) { return folder / io::begun_name; }
@@ -117,7 +113,7 @@ Error RunFolder::stopped() {
                              folder_.string(), go_on_),
                  Exit::cure);
   return Error(fmt::format("stopped early (on request): {} in {}; {}",
-                           anything_finished_in(folder_) ? "what is finished is kept" : "nothing was finished",
+                           finished_in(folder_) != 0 ? "what is finished is kept" : "nothing was finished",
                            folder_.string(), go_on_),
                Exit::resumable);
 }
