@@ -228,10 +228,10 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
       }
     }
     y_.fy[k] = turns() ? y_.n[k] - product(y_.rx, y_.alpha, k) : y_.n[k];
-    const Real own = own_acceleration(k);
-    y_.fx[k] = legs_ ? leg_force : of_mass(own) - force_[k];
+    const Real besides_w = own_acceleration(k);
+    y_.fx[k] = legs_ ? leg_force : of_mass(besides_w) - force_[k];
     y_.ax[k] = per_mass(y_.fx[k] + force_[k]);
-    acceleration_ = legs_ ? y_.ax[k] - own : Real(0.0);
+    acceleration_ = legs_ ? y_.ax[k] - besides_w : Real(0.0);
     y_.foot[k] = Real(0.0);
     deflection_rate_ = legs_ ? y_.w[k] : Real(0.0);
   }

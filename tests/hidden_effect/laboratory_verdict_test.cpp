@@ -123,6 +123,12 @@ TEST(LaboratoryVerdict, AWidthThatIsOffIsNoSecondEffect) {
   EXPECT_EQ(d.effects, std::vector<std::string>{"offset_mass"}) << testing::PrintToString(d.sentences);
 }
 
+// Here the reduced base suits the tests better as the width is stated, and only a pair of both explained them.
+TEST(LaboratoryVerdict, AWidthThatIsOffHidesNoEffectBehindAPair) {
+  const Diagnosis d = diagnosed(request({"offset_mass"}, "wrong_width", 6, 8302, 8), {"offset_mass", "reduced_base"});
+  EXPECT_EQ(d.effects, std::vector<std::string>{"offset_mass"}) << testing::PrintToString(d.sentences);
+}
+
 // Test t04 rocks so long that the truth itself misses it by 63 noise units, and friction that is 0.0002 off meets it.
 TEST(LaboratoryVerdict, AHistoryThatAHairOfFrictionTurnsNamesNoEffect) {
   const Diagnosis d = diagnosed(request({"pressure_friction"}, "", 6, 8100, 8), {"friction_wear"});

@@ -163,6 +163,33 @@ TEST(Decide, APairIsNamedWhereOneMoreEffectHelps) {
   }
 }
 
+// A width 2 % off: the reduced base suited the tests better than the offset mass that was there, and a pair of both explained them.
+TEST(Decide, OneEffectThatIsEnoughWithinTolerancesComesBeforePairs) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  Questions ask = by_misfit();
+  const auto by_itself = [](const Candidate& c) { return c.effects == std::vector<std::string>{"offset_mass"}; };
+  ask.enough = [&](const Candidate& c) {
+    Chance enough = chance(misfit_question, by_itself(c) || c.effects.size() == 2 ? 0.4 : 0.001);
+    enough.within_tolerances = by_itself(c);
+    return enough;
+  };
+  ask.another = [&](const Candidate& c) { return chance(another_question, by_itself(c) ? 0.5 : 0.001); };
+  const Diagnosis d = decided_among(
+      bench,
+      {candidate(bench, {"reduced_base", "offset_mass"}, 1.2, 1.0),
+       candidate(bench, {"reduced_base", "floor_tilt"}, 1.3, 1.9), candidate(bench, {"reduced_base"}, 2, 2),
+       candidate(bench, {"offset_mass"}, 2.5, 2.5), candidate(bench, {"floor_tilt"}, 2.6, 2.6)},
+      ask);
+  EXPECT_EQ(d.verdict, Verdict::missing);
+  EXPECT_EQ(d.effects, std::vector<std::string>{"offset_mass"}) << testing::PrintToString(d.sentences);
+  const auto remark = [&](const std::vector<std::string>& effects) {
+    return std::ranges::find(d.candidates, effects, &Candidate::effects)->remark;
+  };
+  EXPECT_EQ(remark({"reduced_base"}), leaves_more);
+  EXPECT_EQ(remark({"reduced_base", "offset_mass"}), stands_for_tolerances);
+}
+
 // And three, beside the best of the pairs that are part of them.
 TEST(Decide, ThreeEffectsAreNamedWhereTheThirdHelps) {
   const Dataset data = cabinet_tests();

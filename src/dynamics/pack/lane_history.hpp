@@ -39,12 +39,12 @@ class LaneHistory {
   }
 
   // Those lanes have just struck the floor and rock on.
-  void rocked_on(unsigned struck, const Pack& time, const Pack& pivot) {
+  void rocked_on(unsigned struck, const Pack& struck_at, const Pack& pivot) {
     for (; struck; struck &= struck - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(struck));
       History* history = rows_.history[first_ + static_cast<int>(lane)];
       if (!history) continue;
-      const double at = time.get(lane), corner = pivot.get(lane);
+      const double at = struck_at.get(lane), corner = pivot.get(lane);
       clear_upper_parts();
       add_blow(*history, at, static_cast<int>(corner));
     }

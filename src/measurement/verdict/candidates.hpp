@@ -21,11 +21,13 @@ void judge_histories(const Bench&, const Judge&, Diagnosis&, const Jobs&);
 double least_misfit(const Diagnosis&);
 
 // Remarks of candidates that do as well as the best one and are not named.
-inline constexpr const char *odd_numbers = "with numbers that are not met in practice",
-                            *needless_effects = "with more effects, whose gain may be chance",
-                            *no_closer =
-                                "with numbers that bring the fit to all tests no closer, the floor's noise allowed for",
-                            *by_luck = "by a history that the floor's noise alone turns elsewhere";
+inline constexpr const char
+    *odd_numbers = "with numbers that are not met in practice",
+    *needless_effects = "with more effects, whose gain may be chance",
+    *no_closer = "with numbers that bring the fit to all tests no closer, the floor's noise allowed for",
+    *stands_for_tolerances = "with more effects, whose gain may be that of what is stated, off within its tolerances",
+    *leaves_more = "which leaves more than chance even where what is stated is off within its tolerances",
+    *by_luck = "by a history that the floor's noise alone turns elsewhere";
 
 // Orders the candidates, with the best of them first, and marks their differences to it. none: as they are, of the base.
 void put_in_order(const Bench&, const Candidate* best, Diagnosis&);

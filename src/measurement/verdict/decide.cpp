@@ -1,7 +1,6 @@
 #include "measurement/verdict/decide.hpp"
 
 #include <fmt/format.h>
-#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +9,14 @@
 #include "base/digits.hpp"
 #include "measurement/laboratory/laboratory.hpp"
 #include "measurement/verdict/answers.hpp"
+#include "measurement/verdict/comparison.hpp"
 
 namespace freestand::measurement {
 namespace {
 
-class Decision {
+class Decision : Comparison {
  public:
-  Decision(const Bench& bench, Diagnosis& d, const Questions& ask)
-      : bench_(bench), d_(d), ask_(ask), histories_(kind_of_set(bench) == Kind::history) {}
+  using Comparison::Comparison;
 
   void take() {
     for (Candidate& c : d_.candidates) c.practical = practical(c.fit, d_.base.fit.x.size());
@@ -48,17 +47,7 @@ class Decision {
   }
 
  private:
-  static std::string joined(const std::vector<std::string>& words) {
-    return fmt::format("{}", fmt::join(words, " and "));
-  }
-  static std::string whole(const Candidate& c) { return c.effects.empty() ? "the model as it is" : joined(c.effects); }
   void say(std::string sentence) { d_.sentences.push_back(std::move(sentence)); }
-  double pooled_left_out(const Candidate& c) const {
-    return pooled(bench_, tests_of(bench_.data(), Role::calibration), c.fit.left_out).error;
-  }
-
-  // Where friction scatters, a test left out is missed by what its own friction does: there with that allowed for.
-  double left_out(const Candidate& c) const { return d_.friction_scatter > 0 ? c.explained : pooled_left_out(c); }
   std::string scatter_allowed_for() const {
     return d_.friction_scatter > 0 ? fmt::format(" (friction that differs from test to test by {:.2g} % allowed for)",
                                                  100 * d_.friction_scatter)
@@ -71,8 +60,13 @@ class Decision {
     for (Candidate& c : d_.candidates) {
       if (c.rival || !fitted_to_the_end(c) || c.effects == best.effects) continue;
       const bool odd = !c.practical && c.effects.size() <= best.effects.size() && !brings_nothing(c);
-      if (odd ? !as_good(best, c) : !is_ahead(c, best)) continue;
-      c.remark = odd ? odd_numbers : brings_nothing(c) ? no_closer : was_luck(c) ? by_luck : needless_effects;
+      if (!(odd && as_good(best, c)) && !is_ahead(c, best)) continue;
+      c.remark = odd                       ? odd_numbers
+                 : brings_nothing(c)       ? no_closer
+                 : was_luck(c)             ? by_luck
+                 : refuted(best, c)        ? leaves_more
+                 : within_tolerances(best) ? stands_for_tolerances
+                                           : needless_effects;
       told[c.remark].push_back(fmt::format("{} ({})", joined(c.effects), three_digits(left_out(c))));
     }
     std::string text;
@@ -80,11 +74,6 @@ class Decision {
       text += fmt::format("{}{}, {}", text.empty() ? ", but for " : "; ", fmt::join(names, ", "), remark);
     return text;
   }
-  // By what the table shows of both.
-  bool is_ahead(const Candidate& a, const Candidate& b) const {
-    return std::stod(three_digits(left_out(a))) < std::stod(three_digits(left_out(b)));
-  }
-
   // The closest fit among those that were not judged on tests left out.
   std::string nothing_gained() const {
     const Candidate* closest = nullptr;
@@ -97,158 +86,6 @@ class Decision {
         "{}, changes it from {} to {})",
         joined(closest->effects), three_digits(pooled(bench_, tests, d_.base.fit.calibration).error),
         three_digits(pooled(bench_, tests, closest->fit.calibration).error));
-  }
-
-  // More numbers that do not even bring the fitted tests closer than those without them gain nothing on tests left out
-  // but by luck: one fit with a test left out stayed where another strayed.
-  bool brings_nothing(const Candidate& c) const {
-    if (!histories_) return false;
-    double least = d_.base.misfit_of_fit;
-    for (const Candidate& part : d_.candidates)
-      if (part.visible && is_part(part, c)) least = std::min(least, part.misfit_of_fit);
-    return least - c.misfit_of_fit < (c.laboratory ? gain_of_one_number() : gain_of_chance());
-  }
-  static bool fitted_to_the_end(const Candidate& c) { return c.visible && c.fit.left_out_refitted; }
-  bool is_judged(const Candidate& c) const { return fitted_to_the_end(c) && !brings_nothing(c); }
-  // A test that alone tells of an effect is missed without it by whatever the fold's fit took instead: how the fits to all
-  // tests miss, and what their leads are worth by simulation, says which effect it is.
-  double missed_by(const Candidate& c) const { return histories_ ? c.misfit_of_fit : c.fit.mean_left_out(); }
-
-  // Of those that do better than the base. The simplest first: of each number of effects, those with numbers as met in practice, then those without; and of these the
-  // ones that miss least. Each takes the place of the best so far if it overtakes it.
-  const Candidate* find_best() {
-    std::vector<const Candidate*> order;
-    for (const Candidate& c : d_.candidates)
-      if (is_judged(c)) order.push_back(&c);
-    const auto kind = [](const Candidate* c) { return std::pair(c->effects.size(), !c->practical); };
-    std::stable_sort(order.begin(), order.end(), [&](const Candidate* a, const Candidate* b) {
-      return std::pair(kind(a), missed_by(*a)) < std::pair(kind(b), missed_by(*b));
-    });
-    const Candidate* best = nullptr;
-    for (const Candidate* c : order)
-      if (better_than_base(*c) && (!best || overtakes(*c, *best))) best = c;
-    return best;
-  }
-
-  const Candidate* least_left_out() const {
-    const Candidate* best = nullptr;
-    for (const Candidate& c : d_.candidates)
-      if (fitted_to_the_end(c) && (!best || left_out(c) < left_out(*best))) best = &c;
-    return best;
-  }
-
-  bool overtakes(const Candidate& larger, const Candidate& best) {
-    if (missed_by(larger) >= missed_by(best) || left_out(larger) >= left_out(best)) return false;
-    if (histories_ && larger.effects.size() > best.effects.size()) {
-      const Candidate* part = best_part(larger);
-      if (part && is_chance(d_, another_question, whole(*part), [&] { return ask_.another(*part); })) return false;
-    }
-    return !by_chance(larger, best);
-  }
-
-  // What a candidate would be without one of its effects.
-  const Candidate* best_part(const Candidate& whole) const {
-    const Candidate* best = nullptr;
-    for (const Candidate& c : d_.candidates)
-      if (c.visible && c.effects.size() + 1 == whole.effects.size() && is_part(c, whole) &&
-          (!best || c.misfit_of_fit < best->misfit_of_fit))
-        best = &c;
-    return best;
-  }
-
-  double samples() const { return total(d_.samples); }
-
-  void mark_rivals(const Candidate& best) {
-    for (Candidate& c : d_.candidates)
-      c.rival = &c == &best || (c.practical && is_judged(c) && better_than_base(c) &&
-                                c.effects.size() <= best.effects.size() && as_good(best, c));
-    drop_needless();
-  }
-
-  // None is named alone over one that misses the tests left out by less, by what the table shows of both; nor with a lead
-  // that data from the other would give it in more than one set of twenty.
-  bool as_good(const Candidate& best, const Candidate& rival) {
-    if (is_ahead(rival, best) || missed_by(rival) <= missed_by(best)) return true;
-    return enough(best) && (by_chance(best, rival) || (within_tolerances(best) && enough(rival)));
-  }
-  // Enough, but only if what the laboratory states is off within its tolerances: so may others be.
-  bool within_tolerances(const Candidate& c) const {
-    const Chance* chance = answer(d_, misfit_question, whole(c));
-    return chance && chance->within_tolerances;
-  }
-
-  bool by_chance(const Candidate& best, const Candidate& rival) {
-    return is_chance(d_, lead_question, lead_of(best, rival), [&] { return ask_.lead(best, rival); });
-  }
-  static std::string lead_of(const Candidate& best, const Candidate& rival) {
-    return fmt::format("{} before {}", joined(best.effects), joined(rival.effects));
-  }
-  // Which of these it was that makes the rival as good.
-  std::string why_as_good(const Candidate& best, const Candidate& rival) const {
-    const std::string name = joined(rival.effects), other = joined(best.effects);
-    const Chance* lead = answer(d_, lead_question, lead_of(best, rival));
-    if (lead && !lead->apart())
-      return fmt::format("{} imitates {} (such tests tell them apart in {:.2g} % of sets, as chance does)", name, other,
-                         100 * lead->told_apart);
-    if (lead && lead->chance()) return fmt::format("chance may have put {} behind (p {:.2g})", name, lead->p);
-    if (is_ahead(rival, best))
-      return fmt::format("{} misses the tests left out by less than {}, which fits all tests more closely", name,
-                         other);
-    if (missed_by(rival) <= missed_by(best)) return fmt::format("{} fits all tests as closely as {}", name, other);
-    return fmt::format("{} is enough as well if what is stated is off within its tolerances", name);
-  }
-
-  // Also by the plain error: a base that strayed after one test that the floor's noise had turned elsewhere looks worse to
-  // the covariance of its own replays than it is. And by more than its own replays stray. An effect that one test alone tells of cannot
-  // be foretold without it, and gains in the fit to all.
-  bool better_than_base(const Candidate& best) {
-    if (!histories_) return left_out(best) < left_out(d_.base) && help() && !help()->chance();
-    const bool foretold = left_out(best) < left_out(d_.base) && best.misfit < d_.base.misfit &&
-                          gain_beyond_strays(d_.base.misfits, best.misfits) > 0;
-    const bool told_by_one =
-        is_missed_like_base(best) && gain_beyond_strays(d_.base.misfits_of_fit, best.misfits_of_fit) > gain_of_chance();
-    if (!foretold && !told_by_one) return false;
-    const bool gains = d_.base.misfit_of_fit - best.misfit_of_fit > gain_of_chance();
-    // What is stated wrongly is one of few, and takes a model to the noise that is refuted as it stands: it need not also gain more than
-    // the effects do in data that fan out.
-    if (best.laboratory) return (gains || !enough(d_.base)) && enough(best);
-    return (help() ? !help()->chance() : gains) && !helps_by_luck(best);
-  }
-  bool helps_by_luck(const Candidate& c) {
-    return is_chance(d_, steady_question, whole(c), [&] { return ask_.steady(c); });
-  }
-  bool was_luck(const Candidate& c) const {
-    const Chance* chance = answer(d_, steady_question, whole(c));
-    return chance && chance->chance();
-  }
-  // On tests left out, by what the table shows.
-  bool is_missed_like_base(const Candidate& c) const {
-    return three_digits(left_out(c)) == three_digits(left_out(d_.base));
-  }
-  const Chance* help() const { return help_of(d_); }
-  static double gain_of_one_number() { return gsl_cdf_chisq_Pinv(1 - chance_level, 1); }
-  double gain_of_chance() const { return help() ? help()->usual : gain_of_one_number(); }  // no effect was tried
-
-  double gain_beyond_strays(const std::vector<double>& from, const std::vector<double>& to) const {
-    double gain = 0;
-    for (std::size_t i = 0; i < to.size(); ++i)
-      gain += from[i] > to[i] ? std::max(from[i] - to[i] - d_.strays[i], 0.0) : from[i] - to[i];
-    return gain;
-  }
-
-  // A pair that holds a rival single effect, which is enough, is no rival of its own.
-  void drop_needless() {
-    for (Candidate& c : d_.candidates) {
-      if (!c.rival || c.effects.size() < 2) continue;
-      for (const Candidate& single : d_.candidates)
-        if (single.rival && is_part(single, c) && enough(single)) c.rival = false;
-    }
-  }
-
-  // A number that is stated wrongly, and no law that comes near: put right it leaves noise alone.
-  bool enough(const Candidate& c) {
-    return !histories_ || is_chance(d_, misfit_question, whole(c), [&] { return ask_.enough(c); }) ||
-           (c.explained <= adequate && !c.laboratory);
   }
 
   // Said where a model that is near enough still leaves more than chance.
@@ -276,15 +113,6 @@ class Decision {
     if (!histories_ || pooled_left_out(d_.base) > 2 * pooled_left_out(best) || !told_by_few(best).empty()) return "";
     return fmt::format(" (with the floor's noise allowed for, from {} to {})", three_digits(d_.base.explained),
                        three_digits(best.explained));
-  }
-
-  std::vector<const Candidate*> rivals_by_left_out() const {
-    std::vector<const Candidate*> rivals;
-    for (const Candidate& c : d_.candidates)
-      if (c.rival) rivals.push_back(&c);
-    std::stable_sort(rivals.begin(), rivals.end(),
-                     [&](const Candidate* a, const Candidate* b) { return left_out(*a) < left_out(*b); });
-    return rivals;
   }
 
   // They become the verdict.
@@ -380,11 +208,6 @@ class Decision {
       }
     return names.empty() ? "" : fmt::format(", but for {}, {}", fmt::join(names, ", "), by_luck);
   }
-
-  const Bench& bench_;
-  Diagnosis& d_;
-  const Questions& ask_;
-  bool histories_;
 };
 
 }  // namespace

@@ -126,14 +126,18 @@ EffectSearch::Deviated EffectSearch::stated_beside(const ModelFit& fit) const {
 }
 
 bool EffectSearch::look_for_deviations(const Candidate& c) {
-  constexpr std::size_t points = 24;  // of each number, as of an effect that joins another
   if (c.effects.empty() || c.laboratory || deviated_.count(c.effects)) return false;
+  return look_for_deviations_from(c.effects, c.fit);
+}
+
+bool EffectSearch::look_for_deviations_from(const std::vector<std::string>& effects, const ModelFit& fit) {
+  constexpr std::size_t points = 24;  // of each number, as of an effect that joins another
   std::vector<FitTask> tasks;
-  for (LaboratoryFault& fault : laboratory_faults(bench_, narrowed(c.fit), c.fit.x)) {
+  for (LaboratoryFault& fault : laboratory_faults(bench_, narrowed(fit), fit.x)) {
     tasks.push_back({.model = std::move(fault.model), .screened = false});
-    tasks.back().starts = starts_from({c.fit.x}, tasks.back().model, points);
+    tasks.back().starts = starts_from({fit.x}, tasks.back().model, points);
   }
-  deviated_[c.effects] = fit_models(bench_, tasks, quick(), jobs_);
+  for (ModelFit& found : fit_models(bench_, tasks, quick(), jobs_)) deviated_[effects].push_back(std::move(found));
   beside_.clear();
   return !tasks.empty();
 }

@@ -62,6 +62,8 @@ class EffectSearch {
   Deviated stated_beside(const ModelFit&) const;
   // Looks for it as for an effect, by fits with one of these numbers free. False: it was looked for, or none changes anything.
   bool look_for_deviations(const Candidate&);
+  // The same from another place of theirs, which adds to what was found. False: nothing that is stated changes anything.
+  bool look_for_deviations_from(const std::vector<std::string>& effects, const ModelFit&);
   // With nothing that is stated off.
   Chance chance_as_stated(const Judge&, const ModelFit&) const;
   // Does one more effect help beside those of a candidate? Of all that may join it, beyond such deviations.

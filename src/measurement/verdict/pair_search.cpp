@@ -17,6 +17,7 @@ void PairSearch::search_more() {
     judge();
     if (fit_parts_of_best_pair()) judge();
   }
+  look_for_deviations_of_parts();
   while (add_one_more()) judge();
 }
 
@@ -161,6 +162,12 @@ bool PairSearch::fit_parts_of_best_pair() {
   polish(bench_, better, options_.effort, 0.05, jobs_);
   leave_out(better);
   return !better.empty();
+}
+
+void PairSearch::look_for_deviations_of_parts() {
+  const Candidate& pair = best();
+  if (pair.effects.size() != 2) return;
+  for (const std::size_t i : {0, 1}) look_for_deviations_from({pair.effects[i]}, part_of(pair, i));
 }
 
 std::vector<FitTask> PairSearch::singles_and_pairs() {

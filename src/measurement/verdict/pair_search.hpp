@@ -37,6 +37,8 @@ class PairSearch : public EffectSearch {
             std::vector<Candidate>& larger, std::vector<FitTask>& tasks);
   // Would one of the two do, from where the pair stands? Its own fit may have stuck elsewhere.
   bool fit_parts_of_best_pair();
+  // Or with something that is stated off, which the second effect may stand for?
+  void look_for_deviations_of_parts();
   // Single effects that the tests can see, and all pairs of them, to be fitted from anywhere.
   std::vector<FitTask> singles_and_pairs();
   // Nothing explains the tests: the effect is of no catalogue, or fits have stuck, or the best single effects, which pairs
