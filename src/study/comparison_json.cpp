@@ -5,8 +5,8 @@
 
 #include "base/units.hpp"
 #include "measurement/fit/bands.hpp"
-#include "measurement/tell/findings.hpp"
 #include "measurement/noise/unread_floors.hpp"
+#include "measurement/tell/findings.hpp"
 #include "study/fitted_study.hpp"
 #include "study/posterior_tables.hpp"
 #include "study/spread_jobs.hpp"
@@ -73,6 +73,7 @@ Json test_json(const Bench& bench, const TestComparison& t) {
                {"error_relative", number_or_null(t.error.relative)},
                {"error_floor_noise_allowed", number_or_null(t.explained)},
                {"error_expected", number_or_null(t.expected)},
+               {"error_of_noise", number_or_null(t.of_noise)},
                {"score", number_or_null(t.error.score)},
                {"outcome", name(t.model.response.outcome)},
                {"peaks", peaks_json(test, t.model)}};
@@ -200,18 +201,10 @@ Json posterior_json(const Posterior& open) {
           {"share_counted", open.counted}};
 }
 
-std::string unread_floors(const Bench& bench, const ModelFit& fit, const std::vector<TestComparison>& tests,
-                          const Jobs& jobs) {
-  const auto unread = jobs("floors between their readings", tests.size(), [&](std::size_t i) {
-    const std::size_t test = tests[i].test;
-    if (!bench.test(test).has_history()) return Values{0};
-    const double with_noise = expected_error(bench, bench.unread_spread(fit.model, test, fit.x, tests[i].model));
-    return Values{std::sqrt(std::max(0.0, with_noise * with_noise - 1))};
-  });
+std::string unread_floors(const Bench& bench, const std::vector<TestComparison>& tests) {
   std::vector<UnreadFloor> floors;
-  for (std::size_t i = 0; i < tests.size(); ++i)
-    if (bench.test(tests[i].test).has_history())
-      floors.push_back({&bench.test(tests[i].test), unread[i][0], tests[i].expected});
+  for (const TestComparison& t : tests)
+    if (bench.test(t.test).has_history()) floors.push_back({&bench.test(t.test), t.unread, t.of_noise});
   return told_of_unread(floors);
 }
 
@@ -235,8 +228,7 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
                     "sweeps hold none of that until "
                     "it is fitted with the others (mu: {{calibrate: [0.05, 1]}})",
                     100 * open.friction_scatter));
-  if (const std::string unread = unread_floors(bench, fit, c.tests, jobs); !unread.empty())
-    c.findings.push_back(unread);
+  if (const std::string unread = unread_floors(bench, c.tests); !unread.empty()) c.findings.push_back(unread);
   if (const std::string level = level_tests(*p); !level.empty()) c.findings.push_back(level);
   if (fit.evaluations == 0 && !open.better.empty()) c.findings.push_back(better_numbers(fit, open.better));
 

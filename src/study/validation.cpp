@@ -269,20 +269,26 @@ std::vector<TestComparison> compare_tests(const Bench& bench, const ModelFit& fi
   const auto spreads = jobs("replays of the floor's noise", bench.size(), [&](std::size_t i) {
     Values all;
     if (!bench.test(i).has_history()) return all;
-    for (const auto& channel : bench.spread(fit.model, i, fit.x, predict(fit.model, bench.test(i), fit.x)))
-      all.insert(all.end(), channel.begin(), channel.end());
+    const Prediction nominal = predict(fit.model, bench.test(i), fit.x);
+    for (const Spread& spread :
+         {bench.spread(fit.model, i, fit.x, nominal), bench.unread_spread(fit.model, i, fit.x, nominal)})
+      for (const auto& channel : spread) all.insert(all.end(), channel.begin(), channel.end());
     return all;
   });
   std::vector<TestComparison> tests;
   for (std::size_t i = 0; i < bench.size(); ++i) {
-    Spread spread(channel_count);
     auto at = spreads[i].begin();
-    for (int c = 0; c < channel_count && bench.test(i).has_history(); ++c) {
-      const auto n = static_cast<long>(history(bench.test(i), static_cast<Channel>(c)).size());
-      spread[static_cast<std::size_t>(c)].assign(at, at + n);
-      at += n;
-    }
-    tests.push_back(compare_test(bench, i, fit.model, fit.x, std::move(spread)));
+    const auto next = [&] {
+      Spread spread(channel_count);
+      for (int c = 0; c < channel_count && bench.test(i).has_history(); ++c) {
+        const auto n = static_cast<long>(history(bench.test(i), static_cast<Channel>(c)).size());
+        spread[static_cast<std::size_t>(c)].assign(at, at + n);
+        at += n;
+      }
+      return spread;
+    };
+    Spread of_noise = next();
+    tests.push_back(compare_test(bench, i, fit.model, fit.x, std::move(of_noise), next()));
   }
   average_over_draws(bench, fit.model, open, tests, jobs);
   return tests;

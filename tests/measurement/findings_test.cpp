@@ -244,6 +244,33 @@ TEST(Findings, OneSentenceInPlainWordsSaysWhereItFails) {
   }
 }
 
+// A floor that was read seldom: what it did between its readings is as large as the error, and no effect is asked for.
+TEST(Findings, WhatTheFloorDidBetweenItsReadingsAsksForNoEffect) {
+  const Dataset data = test::with_noise(test::made_dataset(test::cabinet(), 0), 1);
+  const Bench bench(data, 2);
+  const ModelSpec model = fixed(0.205);
+  for (const double seldom : {0.0, 1.0}) {
+    std::vector<TestComparison> tests;
+    for (std::size_t i = 0; i < bench.size(); ++i) {
+      const Prediction p = predict(model, bench.test(i), {});
+      const double error = compare_test(bench, i, model, {}, bench.spread(model, i, {}, p)).error.noise_units;
+      EXPECT_GT(error, 3);
+      Spread unread(channel_count);
+      for (int c = 0; c < channel_count; ++c)
+        unread[static_cast<std::size_t>(c)].assign(history(bench.test(i), static_cast<Channel>(c)).size(),
+                                                   std::pow(seldom * error * bench.noise(static_cast<Channel>(c)), 2));
+      tests.push_back(compare_test(bench, i, model, {}, bench.spread(model, i, {}, p), unread));
+      EXPECT_NEAR(tests.back().unread, seldom * error, 1e-9 * error);
+      EXPECT_NEAR(tests.back().expected, std::hypot(tests.back().of_noise, seldom * error), 1e-9 * error);
+    }
+    const std::vector<std::string> found = compare(bench, model, {}, std::move(tests), {}).findings;
+    const char *asks = "diagnose asks what is missing",
+               *between = "and what the floor did between its readings, alone would make";
+    EXPECT_THAT(found, Contains(HasSubstr(seldom == 0 ? asks : between)));
+    EXPECT_THAT(found, Not(Contains(HasSubstr(seldom == 0 ? between : asks))));
+  }
+}
+
 // The largest of many readings is larger than the slip: a model that is right is not told to resist too much.
 TEST(Findings, PeaksOfATrueModelAreNeitherHighNorLow) {
   const Dataset clean = test::made_dataset(test::cabinet(), 0);

@@ -22,13 +22,15 @@ struct ChannelError {
   double autocorrelation = 0;                      // of the residual, one step apart; 0 for white noise
 };
 
-// Noise units that the noise of the floor makes alone (`expected`), beyond which a test tells little.
+// Noise units that the noise of the floor makes alone (`of_noise`), beyond which a test tells little.
 inline constexpr double drowned = 5;
 
 struct TestComparison {
   std::size_t test = 0;
   TestError error = {};
-  double explained = 0, expected = 0;  // explained_error(), expected_error(); histories only, else nan
+  // Histories only, else nan: explained_error(); expected_error(), and its parts, which add up by squares: of the noise of sensors and floor,
+  // and of what the floor did between its readings.
+  double explained = 0, expected = 0, of_noise = 0, unread = 0;
   std::vector<ChannelError> channels = {};
   Prediction model = {};
   Spread spread = {};
@@ -52,8 +54,9 @@ struct Comparison {
   std::vector<std::string> findings;
 };
 
-// x: the free numbers. spread: of the replays, from Bench::spread (histories only).
-TestComparison compare_test(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x, Spread spread);
+// x: the free numbers. spread, unread: Bench::spread and Bench::unread_spread (histories only; unread may be empty).
+TestComparison compare_test(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x, Spread spread,
+                            const Spread& unread = {});
 Comparison compare(const Bench&, const ModelSpec&, std::span<const double> x, std::vector<TestComparison> tests,
                    const Quality&);
 
