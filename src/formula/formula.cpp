@@ -305,6 +305,25 @@ bool Formula::looks_at(const std::string& variable) const {
   return looks_at(static_cast<int>(found - variables().begin()));
 }
 
+bool Formula::turns_by_direction() const {
+  const auto bit = [](const char* name) {
+    return 1U << (std::find(variables().begin(), variables().end(), name) - variables().begin());
+  };
+  const unsigned sigma = bit("sigma"), changing = bit("t") | bit("rest") | bit("normal") | bit("theta") | bit("omega") |
+                                                  bit("side") | bit("u") | bit("v");
+  std::vector<unsigned> seen;  // by each operation
+  for (const auto& [kind, x, operands] : operations_) {
+    const bool known = kind == variable;
+    unsigned all = known && operands[0] < static_cast<int>(variables().size()) ? 1U << operands[0] : 0;
+    for (std::size_t i = 0; i < operands.size() && !known; ++i) all |= seen[static_cast<std::size_t>(operands[i])];
+    const unsigned argument = kind == where_of ? seen[static_cast<std::size_t>(operands[0])] : all;
+    const bool bends = kind == less || kind == greater || (kind >= abs_of && kind <= where_of);
+    if (bends && (argument & sigma) && (argument & changing)) return true;
+    seen.push_back(all);
+  }
+  return false;
+}
+
 bool Formula::looks_at(int sought) const {
   const auto is_it = [&](int place) {
     const Operation& of = operations_[static_cast<std::size_t>(place)];
@@ -334,12 +353,21 @@ dynamics::Effect effect(const std::string& name, const std::string& friction, co
     if (!text->empty() && Formula(*text, parameters).looks_at("rest"))
       effect.excludes = {"bouc_wen"};  // never stands still
   if (!friction.empty()) {
-    // The formula stands in the place of mu, but acts as a factor on it: a mu of 0 becomes one that no answer can tell from 0.
+    // The formula stands in the place of mu, but acts as a factor on it: a mu of 0 becomes one that no answer can tell from 0. Beside it no
+    // mu_s above 0 has a ratio that the formula could be multiplied by.
     effect.specimen = [](Specimen& specimen, const dynamics::Parameters&) {
-      if (specimen.friction.mu_s == 0) specimen.friction = {1e-15, 1e-15};
+      Friction& mu = specimen.friction;
+      if (mu.mu_k == 0) mu.mu_k = mu.mu_s = mu.mu_s == 0 ? 1e-15 : std::nan("");
     };
-    effect.friction = [law = Formula(friction, parameters)](const At& at, const dynamics::Parameters& p) {
-      return law.record(at, p) / at.mu;
+    const Formula law(friction, parameters);
+    effect.friction = [law, by_direction = law.turns_by_direction()](const At& at, const dynamics::Parameters& p) {
+      if (!by_direction) return law.record(at, p) / at.mu;
+      const auto towards = [&](double direction) {
+        At there = at;
+        there.sigma = at.u.tape->constant(direction);
+        return law.record(there, p);
+      };
+      return where(at.sigma, towards(+1), towards(-1)) / at.mu;
     };
   }
   if (!force.empty())

@@ -42,6 +42,9 @@ class Formula {
   double value(const Inputs& inputs, double mu, const std::vector<double>& parameters) const;
   bool uses(std::size_t parameter) const;
   bool looks_at(const std::string& variable) const;
+  // Does a condition, or what else has a kink (abs, min, max), look at sigma together with something that changes while the block is stuck?
+  // It turns at another time for a slip to the left than for one to the right.
+  bool turns_by_direction() const;
 
  private:
   struct Operation {

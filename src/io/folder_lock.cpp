@@ -16,6 +16,7 @@
 #include <optional>
 #include <random>
 #include <sstream>
+#include <vector>
 
 #include "base/durable_file.hpp"
 #include "base/file_calls.hpp"
@@ -136,6 +137,16 @@ Error refusal(const fs::path& path, const Json& json) {
 
 }  // namespace
 
+struct FolderLock::Held {
+  std::mutex mutex;
+  std::vector<FolderLock*> locks;
+};
+
+FolderLock::Held& FolderLock::held_here() {
+  static Held held;
+  return held;
+}
+
 FolderLock::FolderLock(const fs::path& folder, Settings settings)
     : path_(folder / lock_name), settings_(std::move(settings)) {
   const auto silence = std::chrono::duration<double>(settings_.silence_s);
@@ -162,9 +173,15 @@ FolderLock::FolderLock(const fs::path& folder, Settings settings)
       std::this_thread::sleep_for(std::min(silence / 20, std::chrono::duration<double>(0.5)));
   }
   heart_ = std::thread([this] { beat(); });
+  const std::lock_guard guard(held_here().mutex);
+  held_here().locks.push_back(this);
 }
 
 FolderLock::~FolderLock() {
+  {
+    const std::lock_guard guard(held_here().mutex);
+    std::erase(held_here().locks, this);
+  }
   release();
   {
     const std::lock_guard guard(mutex_);
@@ -231,6 +248,11 @@ void FolderLock::confirm() const {
 
 void FolderLock::release() {
   if (!released_.exchange(true) && is_ours()) ::unlink(path_.c_str());
+}
+
+void FolderLock::release_all() {
+  const std::lock_guard guard(held_here().mutex);
+  for (FolderLock* lock : held_here().locks) lock->release();
 }
 
 }  // namespace freestand::io

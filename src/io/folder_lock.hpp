@@ -40,8 +40,12 @@ class FolderLock {
 
   // Gives it back before the end of its life. Safe to call from any thread.
   void release();
+  // The same of all that this process holds, before it ends where it stands.
+  static void release_all();
 
  private:
+  struct Held;  // by this process
+  static Held& held_here();
   bool create();
   void take_over(const std::string& text) const;
   bool is_ours() const;

@@ -140,6 +140,9 @@ class Reader {
       wrong(row,
             fmt::format("pulse_type is \"{}\" (a record's pulse is one of {}): correct it, or leave the cell empty",
                         shown(record.pulse.type), fmt::format("{}", fmt::join(pulse_types(), ", "))));
+    if (const std::string sign = record.cross.empty() ? "" : vertical_sign(record.cross); !sign.empty())
+      wrong(row, fmt::format("cross is {} ({}), a vertical component: name the other horizontal one",
+                             record.cross.filename().string(), sign));
     if (record.unit.empty()) return;
     try {
       acceleration_unit_mps2(record.unit);
@@ -149,9 +152,9 @@ class Reader {
   }
 
   std::string sign_of_vertical(const CsvTable::Row& row, const fs::path& file) const {
-    if (const std::string component = text(row, "component"); is_vertical_word(component))
-      return "its component is " + component;
-    return has("component") || file.empty() ? "" : vertical_sign(file);
+    const std::string component = text(row, "component");
+    if (is_vertical_word(component)) return "its component is " + component;
+    return !component.empty() || file.empty() ? "" : vertical_sign(file);
   }
 
   void add(const CsvTable::Row& row) {

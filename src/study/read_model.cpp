@@ -118,6 +118,17 @@ void check_static_friction(Section& section, const FrictionPart& friction) {
                                         "their ranges overlap): use mu_k with static_ratio"));
 }
 
+// A formula of friction stands in the place of mu_k, and static friction is mu_s/mu_k times as much.
+void check_ratio_of_formulas(Section& file, const ModelPart& model) {
+  const auto& [mu, mu_k, mu_s, static_ratio, across, axis] = model.friction;
+  if (!mu_k || !mu_s || support(mu_k->value).lower > 0 || !(support(mu_s->value).upper > 0)) return;
+  for (const EffectPart& effect : model.effects)
+    if (!effect.friction.empty())
+      file.problem("friction", fmt::format("friction.mu_k can be 0 beside mu_s (while the block is stuck, friction is "
+                                           "mu_s/mu_k times what effect {} says): give mu, or a mu_k above 0",
+                                           effect.name));
+}
+
 FrictionPart read_friction(Section& file) {
   FrictionPart friction;
   const YAML::Node* node = file.find("friction");
@@ -361,6 +372,7 @@ ModelPart read_model(Section& file) {
       file.problem("impact",
                    "effect impact_loss does not go with impact law coulomb (its impulse follows from friction alone): "
                    "remove the effect, or use housner");
+  check_ratio_of_formulas(file, model);
   model.slip_discrepancy = read_discrepancy(file);
   model.chain = read_chain(file, model);
   model.start = read_start(file, model);

@@ -72,6 +72,14 @@ Paths read_partners(Section& section, const std::string& key, const std::string&
   return {};
 }
 
+// What is taken as the other horizontal component must not be a vertical one.
+void refuse_vertical(Section& section, const std::string& key, const Paths& cross) {
+  for (const std::filesystem::path& file : cross)
+    if (const std::string sign = motion::vertical_sign(file); !sign.empty())
+      section.problem(key, fmt::format("{}: {} ({}) is a vertical component: give the other horizontal one here",
+                                       section.name(key), file.filename().string(), sign));
+}
+
 // By a pattern: files in the order of their names, and vertical components likewise.
 void read_pattern(Section& section, MotionSource& source, const RecordKeys& keys) {
   Paths files = find_files(section, keys.key, source.records, keys);
@@ -79,6 +87,7 @@ void read_pattern(Section& section, MotionSource& source, const RecordKeys& keys
   leave_out_vertical(section, keys.key, source, files);
   const Paths vertical = read_partners(section, keys.vertical_key, source.vertical_records, keys, source, files);
   const Paths cross = read_partners(section, keys.cross_key, source.cross_records, keys, source, files);
+  refuse_vertical(section, keys.cross_key, cross);
   for (std::size_t i = 0; i < files.size(); ++i) {
     motion::RecordRow row;
     row.file = files[i];

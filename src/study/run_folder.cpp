@@ -50,7 +50,6 @@ RunFolder::RunFolder(const parallel::Communicator& world, const fs::path& folder
   world_.on_root([&] {
     io::make_output_folder(folder_, existing, files);
     lock_.emplace(folder_, io::FolderLock::Settings{.lost = parallel::request_stop});
-    locked_ = true;
     io::prepare_output_folder(folder_, existing, files);
     ready_ = true;
   });
@@ -140,7 +139,7 @@ void RunFolder::end() const {
 
 void RunFolder::overdue() {
   const Error error = stopped();
-  if (locked_) lock_->release();
+  io::FolderLock::release_all();  // that of a catalogue around it, too
   parallel::end_run(world_, error);
   std::_Exit(static_cast<int>(error.exit()));
 }

@@ -53,7 +53,6 @@ class RunFolder {
   const std::filesystem::path folder_;
   const std::string go_on_;
   std::optional<io::FolderLock> lock_;  // on the root
-  std::atomic<bool> locked_ = false;    // by lock_
   std::atomic<bool> ready_ = false;     // what is in the folder is this run's to change
   std::mutex noting_;                   // of the three below: a run that is overdue ends from another thread
   bool noted_ = false;                  // on the root, as the next two

@@ -11,6 +11,7 @@
 #include "base/units.hpp"
 #include "dynamics/laws.hpp"
 #include "effects/effects.hpp"
+#include "support/floor_motions.hpp"
 #include "support/random_cases.hpp"
 
 namespace freestand::formula {
@@ -160,6 +161,34 @@ TEST(Formula, OfFrictionActsWhereMuIsZero) {
     }
   }
   EXPECT_GT(moved, 2);
+}
+
+// Static friction is mu_s/mu_k times the formula: of a mu_k of 0 there is no such ratio. (It was infinite, and the block at rest for ever.)
+TEST(Formula, OfFrictionBesideStaticFrictionAloneIsNoAnswer) {
+  const dynamics::Effect law = effect("constant", "0.2", "", {});
+  test::CaseFamily family;
+  test::RandomCase c = test::random_case(family, 3);
+  c.specimen.friction = {0, 0.2};
+  c.specimen.effects = {{&law, {}}};
+  EXPECT_EQ(respond(c.specimen, c.shaking).outcome, Outcome::not_finite);
+}
+
+// Friction that lets go for a while, at 0.5 s for a slip to the left and at 1.5 s for one to the right, while a steady floor pulls: the
+// block slides for 0.1 s, then on until friction has stopped it. Of a pull a over g and friction 0.1, then 0.5, the slip is
+//   (a - 0.1) g 0.1^2/2 (1 + (a - 0.1)/(0.5 - a))
+TEST(Formula, ConditionsOfBothDirectionsAreSeenWhileTheBlockIsStuck) {
+  const dynamics::Effect law = effect("window", "if(abs(t - 1 - 0.5*sigma) < 0.05, 0.1, 0.5)", "", {});
+  Specimen specimen;
+  specimen.block = Block::rectangular(0.6, 0.6, 100);
+  specimen.friction = {0.5, 0.5};
+  specimen.model = Model::slide;
+  const double pull = 0.3, slip = (pull - 0.1) * standard_gravity_mps2 * 0.005 * (1 + (pull - 0.1) / (0.5 - pull));
+  for (const double sign : {1.0, -1.0}) {
+    const FloorMotion steady = test::rectangular_pulse(sign * pull * standard_gravity_mps2, 3);
+    specimen.effects = {{&law, {}}};
+    EXPECT_NEAR(respond(specimen, {&steady}).peak_slip_m, slip, 1e-6) << sign;
+    EXPECT_NEAR(respond_reference(specimen, {&steady}).peak_slip_m, slip, 1e-6) << sign;
+  }
 }
 
 // What cannot be computed ends the sample, soon, and its numbers are no demands.

@@ -79,6 +79,17 @@ TEST(FolderLock, IsGivenBackAtTheEndAndOnErrors) {
   EXPECT_TRUE(fs::is_empty(scratch.folder()));
 }
 
+// As an entry of a catalogue does that is ended where it stands, within the lock of the catalogue.
+TEST(FolderLock, AllOfAProcessAreGivenBackTogether) {
+  const test::Scratch outer("lock"), inner("inner_lock");
+  const FolderLock first(outer.folder());
+  { const FolderLock gone(inner.folder()); }
+  const FolderLock second(inner.folder());
+  FolderLock::release_all();
+  EXPECT_TRUE(fs::is_empty(outer.folder()));
+  EXPECT_TRUE(fs::is_empty(inner.folder()));
+}
+
 TEST(FolderLock, OfAProcessThatIsGoneIsTakenOverAtOnce) {
   const test::Scratch scratch("lock");
   die_with_the_lock(scratch.folder());

@@ -86,6 +86,29 @@ TEST_F(CrossRecords, ATableNamesThem) {
               HasSubstr("give the table a column cross"));
 }
 
+// A vertical component would shake the floor sideways there, too.
+TEST_F(CrossRecords, AreNoVerticalOnes) {
+  for (const char* name : {"along/c-NS.txt", "across/c-UP.txt"})
+    std::ofstream(folder_ / name) << "0 0\n0.1 1\n0.2 -1\n";
+  const std::string why = "c-UP.txt (its name ends in UP) is a vertical component";
+  EXPECT_THAT(text_of([&] { study("{records: \"along/*.txt\", cross_records: \"across/*.txt\", unit: g}"); }),
+              HasSubstr(why));
+  EXPECT_THAT(text_of([&] { one("motion: {file: along/c-NS.txt, cross_file: across/c-UP.txt, unit: g}\n"); }),
+              HasSubstr(why));
+  std::ofstream(folder_ / "table.csv") << "file,cross,unit\nalong/c-NS.txt,across/c-UP.txt,g\n";
+  EXPECT_THAT(text_of([&] { study("{records: table.csv}"); }), HasSubstr("cross is c-UP.txt (its name ends in UP)"));
+}
+
+// An empty cell says nothing of the component: its file does.
+TEST_F(CrossRecords, AnEmptyComponentOfATableIsLookedUp) {
+  std::ofstream(folder_ / "c-UP.txt") << "0 0\n0.1 1\n0.2 -1\n";
+  std::ofstream(folder_ / "table.csv") << "file,component,unit\nalong/a.csv,NS,\nc-UP.txt,,g\n";
+  const MotionSource source = study("{records: table.csv}").motions.at(0);
+  EXPECT_EQ(source.files.size(), 1u);
+  ASSERT_EQ(source.left_out.size(), 1u);
+  EXPECT_THAT(source.left_out[0], HasSubstr("its name ends in UP"));
+}
+
 TEST_F(CrossRecords, TheExpandedStudyIsTheSame) {
   const Study first = study(pairs);
   EXPECT_THAT(expanded(first), HasSubstr("cross_records: across/*"));
