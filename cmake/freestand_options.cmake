@@ -31,7 +31,7 @@ if(FREESTAND_SANITIZE)
   add_compile_options(-fsanitize=${FREESTAND_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FREESTAND_SANITIZE})
 endif()
-# -fanalyzer (preset audit) goes through every path; where it does not end it is left out, and every other warning stays.
+# -fanalyzer (preset analyzer) goes through every path; where it does not end it is left out, and every other warning stays.
 function(freestand_not_analyzed)
   if(CMAKE_CXX_FLAGS MATCHES "-fanalyzer")
     set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -fno-analyzer)

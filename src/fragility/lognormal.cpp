@@ -26,8 +26,8 @@ LognormalFit from_moments(double n, double lambda, double omega2) {
 }
 
 LognormalFit nothing(double n) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  return {n, nan, nan, nan, nan, nan, nan};
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  return {n, none, none, none, none, none, none};
 }
 
 }  // namespace

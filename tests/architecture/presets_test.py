@@ -19,11 +19,12 @@ def problems(presets, script):
         found.append("preset memcheck has no debug symbols: valgrind could not say where")
     if not re.search(r"^build memcheck\b", script, re.M) or not re.search(r"^valgrind=\(valgrind .*--error-exitcode=", script, re.M):
         found.append("tests/memcheck does not build preset memcheck and run it through valgrind")
-    flags = configured.get("audit", {}).get("cacheVariables", {})
-    if "-fanalyzer" not in flags.get("CMAKE_CXX_FLAGS", "").split():
-        found.append("preset audit has no -fanalyzer")
-    if flags.get("FREESTAND_WERROR") != "ON":
-        found.append("preset audit lets warnings pass")
+    for name, flag in (("audit", "-Wshadow"), ("analyzer", "-fanalyzer")):
+        flags = configured.get(name, {}).get("cacheVariables", {})
+        if flag not in flags.get("CMAKE_CXX_FLAGS", "").split():
+            found.append(f"preset {name} has no {flag}")
+        if flags.get("FREESTAND_WERROR") != "ON":
+            found.append(f"preset {name} lets warnings pass")
     return found
 
 
@@ -49,10 +50,10 @@ class Presets(unittest.TestCase):
         self.script = self.script.replace("build memcheck", "build dev")
         self.assertEqual(len(self.problems()), 1)
 
-    def test_an_audit_without_analysis_is_missed(self):
-        flags = self.preset("audit")["cacheVariables"]
+    def test_an_analyzer_without_analysis_is_missed(self):
+        flags = self.preset("analyzer")["cacheVariables"]
         flags["CMAKE_CXX_FLAGS"] = flags["CMAKE_CXX_FLAGS"].replace("-fanalyzer ", "")
-        self.assertEqual(self.problems(), ["preset audit has no -fanalyzer"])
+        self.assertEqual(self.problems(), ["preset analyzer has no -fanalyzer"])
 
     def test_every_effect_goes_through_the_memory_checker(self):
         studies = "".join(study.read_text(encoding="utf-8") for study in (ROOT / "tests/memcheck_studies").glob("*.yaml"))

@@ -211,9 +211,9 @@ Interval Posterior::interval(std::size_t number, double level, std::optional<dou
   }
   const auto at = [&](double share) {
     const double place = std::clamp(share * count - 0.5, 0.0, count - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const double above = values[std::min(below + 1, values.size() - 1)];
-    return values[below] + (place - static_cast<double>(below)) * (above - values[below]);
+    const auto lower = static_cast<std::size_t>(place);
+    const double upper = values[std::min(lower + 1, values.size() - 1)];
+    return values[lower] + (place - static_cast<double>(lower)) * (upper - values[lower]);
   };
   const Interval interval{at(below), at(1 - above)};
   return held ? Interval{std::min(interval.lower, *held), std::max(interval.upper, *held)} : interval;

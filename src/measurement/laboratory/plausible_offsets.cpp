@@ -40,12 +40,12 @@ Mean mean_of(std::span<const double> samples) {
 bool outruns_floor(const Test& test, const std::vector<double>& samples, double offset, double noise, Channel channel) {
   constexpr double times = 2, surely = 8, looked_at_s = 0.5;
   const double arm = channel == Channel::slip ? 1 : 0.5 * test.specimen.height_m.value_or(2);
-  double speed = 0, least = 0, most = 0, reach = 0, moving_s = 0;
+  double speed = 0, lowest = 0, highest = 0, reach = 0, moving_s = 0;
   for (std::size_t k = 0; k < samples.size() && moving_s < looked_at_s; ++k) {
     speed += test.dt_s * floor_acceleration_mps2(test, k);
-    least = std::min(least, speed);
-    most = std::max(most, speed);
-    reach += test.dt_s * (most - least);
+    lowest = std::min(lowest, speed);
+    highest = std::max(highest, speed);
+    reach += test.dt_s * (highest - lowest);
     const double moved = arm * (std::abs(samples[k] - offset) - surely * noise);
     if (moved > times * reach) return true;
     if (moved > 0 || moving_s > 0) moving_s += test.dt_s;
