@@ -9,6 +9,7 @@
 #include <new>
 #include <string>
 
+#include "parallel/node_ranks.hpp"
 #include "parallel/requests.hpp"
 
 namespace freestand::parallel {
@@ -48,22 +49,14 @@ std::shared_ptr<std::byte> shared_pages(MPI_Comm node, int rank, const std::stri
 NodePages node_pages(const Communicator& world, std::size_t bytes, const std::function<void(std::byte*)>& begin) {
   NodePages pages{nullptr, world.rank()};
   bytes = std::max(bytes, std::size_t{1});
-  if (world.size() > 1) {
-    MPI_Comm node = MPI_COMM_NULL;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, world.rank(), MPI_INFO_NULL, &node);
-    int rank = 0, ranks = 1;
-    MPI_Comm_rank(node, &rank);
-    MPI_Comm_size(node, &ranks);
-    if (ranks > 1) {
-      static std::int64_t made = 0;  // memories of this program so far, each with a name of its own
-      std::int64_t lowest[3] = {world.rank(), ::getpid(), made++};
-      wait([&](MPI_Request* request) { return MPI_Ibcast(lowest, 3, MPI_INT64_T, 0, node, request); });
-      const std::string name = fmt::format("/freestand.{}.{}.{}", lowest[1], lowest[0], lowest[2]);
-      pages.first = shared_pages(node, rank, name, bytes, begin);
-      if (pages.first) pages.node = lowest[0];
-      pages.refused = !pages.first;
-    }
-    MPI_Comm_free(&node);
+  if (const NodeRanks node(world); node.size > 1) {
+    static std::int64_t made = 0;  // memories of this program so far, each with a name of its own
+    std::int64_t lowest[3] = {world.rank(), ::getpid(), made++};
+    wait([&](MPI_Request* request) { return MPI_Ibcast(lowest, 3, MPI_INT64_T, 0, node.among, request); });
+    const std::string name = fmt::format("/freestand.{}.{}.{}", lowest[1], lowest[0], lowest[2]);
+    pages.first = shared_pages(node.among, node.rank, name, bytes, begin);
+    if (pages.first) pages.node = lowest[0];
+    pages.refused = !pages.first;
   }
   if (pages.first) return pages;
   pages.first = mapped(bytes, MAP_PRIVATE | MAP_ANONYMOUS, -1);

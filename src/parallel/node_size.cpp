@@ -7,7 +7,7 @@
 #include <limits>
 #include <string>
 
-#include "parallel/requests.hpp"
+#include "parallel/node_ranks.hpp"
 
 namespace freestand::parallel {
 namespace {
@@ -23,16 +23,6 @@ double least_limit(const fs::path& mount, const std::string& group, const char* 
     if (std::ifstream(mount / name / file) >> limit) least = std::min(least, limit);  // "max" is no number
     if (name.empty()) return least;
   }
-}
-
-int ranks_of_this_node(const Communicator& world) {
-  if (world.size() == 1) return 1;
-  MPI_Comm node = MPI_COMM_NULL;
-  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, world.rank(), MPI_INFO_NULL, &node);
-  int ranks = 1;
-  MPI_Comm_size(node, &ranks);
-  MPI_Comm_free(&node);
-  return ranks;
 }
 
 }  // namespace
@@ -55,7 +45,7 @@ double memory_for_this_process(const fs::path& root) {
 }
 
 NodeSize narrowest_node(const Communicator& world) {
-  const NodeSize mine{ranks_of_this_node(world), memory_for_this_process()};
+  const NodeSize mine{NodeRanks(world).size, memory_for_this_process()};
   NodeSize narrowest = mine;
   for (const Words& words : world.gather({mine.ranks, static_cast<std::int64_t>(mine.memory_bytes)})) {
     const NodeSize one{static_cast<int>(words[0]), static_cast<double>(words[1])};
