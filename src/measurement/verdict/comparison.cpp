@@ -90,9 +90,14 @@ std::vector<const Candidate*> Comparison::rivals_by_left_out() const {
 }
 
 bool Comparison::enough(const Candidate& c) {
-  return !histories_ || is_chance(d_, misfit_question, whole(c), [&] { return ask_.enough(c); }) ||
-         (c.explained <= adequate && !c.laboratory);
+  return !histories_ || leaves_chance(c) || (c.explained <= adequate && !c.laboratory);
 }
+
+bool Comparison::leaves_chance(const Candidate& c) {
+  return is_chance(d_, misfit_question, whole(c), [&] { return ask_.enough(c); });
+}
+
+bool Comparison::only_near_enough(const Candidate& c) { return histories_ && enough(c) && !leaves_chance(c); }
 
 double Comparison::pooled_left_out(const Candidate& c) const {
   return pooled(bench_, tests_of(bench_.data(), Role::calibration), c.fit.left_out).error;
@@ -113,6 +118,7 @@ bool Comparison::is_missed_like_base(const Candidate& c) const {
 bool Comparison::as_good(const Candidate& best, const Candidate& rival) {
   if (refuted(best, rival)) return false;
   if (is_ahead(rival, best) || missed_by(rival) <= missed_by(best)) return true;
+  if (only_near_enough(best) && only_near_enough(rival)) return true;
   return enough(best) && (by_chance(best, rival) || (within_tolerances(best) && enough(rival)));
 }
 
@@ -139,6 +145,8 @@ std::string Comparison::why_as_good(const Candidate& best, const Candidate& riva
   if (is_ahead(rival, best))
     return fmt::format("{} misses the tests left out by less than {}, which fits all tests more closely", name, other);
   if (missed_by(rival) <= missed_by(best)) return fmt::format("{} fits all tests as closely as {}", name, other);
+  if (const Chance* left = answer(d_, misfit_question, whole(best)); left && !left->chance())
+    return fmt::format("{} and {} both leave more than chance, but no more than one reading strays by", other, name);
   return fmt::format("{} is enough as well if what is stated is off within its tolerances", name);
 }
 

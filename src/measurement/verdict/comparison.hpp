@@ -65,6 +65,10 @@ class Comparison {
   // the covariance of its own replays than it is. And by more than its own replays stray. An effect that one test alone tells of cannot
   // be foretold without it, and gains in the fit to all.
   bool better_than_base(const Candidate&);
+  // Its misfit is one that data from itself may have; or not, and its own error no larger than the noise. What is missing from two of the
+  // latter may be what the one leads the other by.
+  bool leaves_chance(const Candidate&);
+  bool only_near_enough(const Candidate&);
   bool overtakes(const Candidate& larger, const Candidate& best);
   // Enough, with no other effect that helps beside it.
   bool complete(const Candidate&);

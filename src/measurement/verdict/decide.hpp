@@ -6,7 +6,8 @@
 //             It gives way to a larger one, or one with odd numbers, only where that misses the tests left out by less, its
 //             lead is more than data from the smaller would give it, and so is the gain of one more effect, among all
 //             that may join
-//   rivals    those whose own data would give the best its lead, and those that miss tests left out by less
+//   rivals    those whose own data would give the best its lead, and those that miss tests left out by less; where none is enough but by its own error, those
+//             of which that is so too
 //   enough    its misfit is one that data from itself may have, or its own error is no larger than the noise. What the laboratory states
 //             wrongly is named only by the former: a number that is put right leaves noise alone
 //
