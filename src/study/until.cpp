@@ -13,6 +13,12 @@ std::string place_of(const fragility::HalfWidth& width) {
   return fmt::format("{} at an intensity of {:.3g}{}", width.edp, width.im, axis);
 }
 
+// A half width is known, and wanted, of all points together; with relative errors alone it is that of each.
+std::string at_once(const Study& study, const fragility::HalfWidth& width) {
+  if (!wanted(study, {}).at_once() || width.points < 2) return "";
+  return fmt::format(" at all {} points at once", width.points);
+}
+
 // Where errors are relative the widest band may be wide enough, and a narrower one not.
 std::string farthest_told(const Study& study, const fragility::HalfWidth& width) {
   if (!study.until->relative_error || width.edp.empty()) return "";
@@ -21,7 +27,7 @@ std::string farthest_told(const Study& study, const fragility::HalfWidth& width)
 }
 
 // "+-0.020", "20 % of P down to 0.001", or both.
-std::string wanted_text(const UntilPart& until, const char* half_width) {
+std::string wanted_text(const UntilPart& until, const std::string& half_width) {
   const std::string width = fmt::format(fmt::runtime(half_width), until.half_width);
   if (!until.relative_error) return width;
   const std::string relative =
@@ -68,8 +74,9 @@ fragility::Wanted wanted(const Study& study, const Drawn& drawn) {
 
 std::string round_told(const Study& study, const fragility::Result& result, const Drawn& drawn) {
   const fragility::HalfWidth reached = fragility::half_width(result, wanted(study, drawn));
-  std::string text = fmt::format("{}: the surface is known to +-{:.3g}{} (wanted {})", samples_told(result, drawn),
-                                 reached.largest, farthest_told(study, reached), wanted_text(*study.until, "+-{:.3f}"));
+  std::string text =
+      fmt::format("{}: the surface is known to +-{:.3g}{}{} (wanted {})", samples_told(result, drawn), reached.largest,
+                  at_once(study, reached), farthest_told(study, reached), wanted_text(*study.until, "+-{:.3f}"));
   if (const std::string empty = empty_told(reached, drawn); !empty.empty()) text += "; " + empty;
   if (reached.times_wanted <= 1) return text;
   return text + "; " + helps(study, fragility::outlook(result, wanted(study, drawn)));
@@ -82,7 +89,7 @@ std::string not_reached(const Study& study, const fragility::Result& result, con
   const fragility::Outlook outlook = fragility::outlook(result, wanted(study, drawn));
   const bool all = drawn.samples == static_cast<std::int64_t>(study.until->at_most);
   return fmt::format("the surface was to be known to {}, and after {}{} it is known to +-{:.3g}{} ({})",
-                     wanted_text(*study.until, "+-{:.3g}"), samples_told(result, drawn),
+                     wanted_text(*study.until, "+-{:.3g}" + at_once(study, reached)), samples_told(result, drawn),
                      all                           ? ", the most that until allows,"
                      : std::isinf(outlook.samples) ? ", where more would hardly help,"
                                                    : "",
@@ -117,6 +124,7 @@ void tell_until(const Study& study, const fragility::Result& result, const Drawn
     until["down_to"] = study.until->down_to;
   }
   until["half_width_reached"] = reached.largest;
+  until["points"] = reached.points;
   until["times_wanted"] = std::isfinite(reached.times_wanted) ? nlohmann::ordered_json(reached.times_wanted) : nullptr;
   until["reached"] = warning.empty();
   until["samples"] = result.samples;

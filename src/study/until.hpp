@@ -19,8 +19,8 @@ struct Drawn {
 // What of the surfaces a study wants to be known, and how well. Of a study with `until`.
 fragility::Wanted wanted(const Study&, const Drawn&);
 
-// After a round: "8192 samples: the surface is known to +-0.061 (wanted +-0.020); some 7.6e+04 samples are needed", or that at_most
-// is too few, or that only more records would help.
+// After a round: "8192 samples: the surface is known to +-0.061 at all 48 points at once (wanted +-0.020); some 7.6e+04 samples are needed", or
+// that at_most is too few, or that only more records would help.
 std::string round_told(const Study&, const fragility::Result&, const Drawn&);
 
 // One sentence where `until` was not reached; "" where it was, or where the study has none.
@@ -29,11 +29,13 @@ std::string not_reached(const Study&, const fragility::Result&, const Drawn&);
 // Where some were passed over, what is true of the bins alone, and not of all samples together; else empty.
 std::string passed_over_told(const Drawn&);
 
-// Of a study with `until`: summary["until"] = {half_width_wanted, relative_error_wanted, down_to, half_width_reached, times_wanted,
-// reached, samples: that were integrated, drawn, alike, at_most, farthest from what is wanted: {edp, im, capacity, the second axis with its
-// place there, half_width}, stays_above: what more samples would not take away where that is most times what is wanted, samples_needed: to be drawn, null where only more records would do, rare_cells: of
-// second axes, not wanted, empty_bins: middles of bins of intensity in which nothing fell, and nothing is waited for (one of
-// summary["warnings"] too)}; where it was not reached also one of summary["warnings"], and a line on the terminal.
+// Of a study with `until`: summary["until"] = {half_width_wanted, relative_error_wanted, down_to, half_width_reached, points: at which it
+// is at once, with half_width_wanted below 0.5, else at each by itself (fragility::HalfWidth), times_wanted, reached, samples: that were
+// integrated, drawn, alike, at_most, farthest from what is wanted: {edp, im, capacity, the second axis with its place there, half_width},
+// stays_above: what more samples would not take away where that is most times what is wanted, samples_needed: to be drawn, null where
+// only more records would do, rare_cells: of second axes, not wanted, empty_bins: middles of bins of intensity in which nothing fell, and
+// nothing is waited for (one of summary["warnings"] too)}; where it was not reached also one of summary["warnings"], and a line on the
+// terminal.
 void tell_until(const Study&, const fragility::Result&, const Drawn&, nlohmann::ordered_json& summary);
 
 }  // namespace freestand::study

@@ -3,6 +3,7 @@
 import csv
 import json
 import unittest
+from statistics import NormalDist
 
 import numpy
 
@@ -36,7 +37,12 @@ def slips(random, amplitude_g):
     return amplitude_g * 9.80665 * period_s**2 / 2 * numpy.maximum(0, amplitude_g / friction - 1)
 
 
-TEXT = study_text(block_size=256).replace("samples: 3000", "until: {half_width: 0.08, at_most: 200000}")
+TEXT = study_text(block_size=256).replace("samples: 3000", "until: {half_width: 0.15, at_most: 200000}")
+
+
+def of_points(points):
+    """Half width that holds at so many points at once, in those of 95 % of one: z(1 - 0.025/m)/z(0.975)."""
+    return NormalDist().inv_cdf(1 - 0.025 / points) / NormalDist().inv_cdf(0.975)
 
 
 class Until(InFolder):
@@ -47,17 +53,23 @@ class Until(InFolder):
         with h5py.File(folder / "samples.h5") as file:
             samples = file["samples/outcome"].shape[0]
         self.assertLess(samples, 200000)
+        points = 0
         with h5py.File(folder / "fragility.h5") as file:
+            for edp in file["edp"].values():
+                n = edp["axis/friction_mu_k/n"][()]
+                self.assertTrue((edp["n"][()] >= 30).all() and (n[n < 30] * 200000 < 30 * samples).all())  # too rare to be wanted
+                points += (len(edp["n"]) + (n >= 30).sum()) * edp["surface/probability"].shape[1]
             surface = file["edp/delta/surface"]
             half_width = (surface["upper"][()] - surface["lower"][()]).max() / 2
             axis = file["edp/delta/axis/friction_mu_k"]
             cells = ((axis["upper"][()] - axis["lower"][()]) / 2)[axis["n"][()] >= 30]
-        self.assertLessEqual(half_width, 0.08)
-        self.assertLessEqual(cells.max(), 0.08)  # of the second axis too
-        self.assertGreater(cells.max(), half_width)
+        self.assertLessEqual(of_points(points) * cells.max(), 0.15)  # of the second axis too
+        self.assertGreater(cells.max(), 1.1 * half_width)
         self.assertIn("samples are needed", done.stderr)
+        self.assertRegex(done.stderr, rf"the surface is known to \+-0\.\d+ at all {points} points at once \(wanted \+-0\.150\)\n")
         until = json.loads((folder / "summary.json").read_text())["until"]
-        self.assertEqual(until["half_width_reached"], cells.max())
+        self.assertEqual(until["points"], points)
+        self.assertAlmostEqual(until["half_width_reached"], of_points(points) * cells.max(), 12)
         self.assertIn("friction_mu_k", until["farthest"])
         self.assertEqual(until["farthest"]["half_width"], until["half_width_reached"])
         self.assertLessEqual(until["samples_needed"], samples)
@@ -100,7 +112,7 @@ class Until(InFolder):
             self.assertTrue(any(told in warning for warning in summary["warnings"]))
 
     def test_what_was_not_reached_is_told(self):
-        text = TEXT.replace("half_width: 0.08, at_most: 200000", "half_width: 0.001, at_most: 1024")
+        text = TEXT.replace("half_width: 0.15, at_most: 200000", "half_width: 0.001, at_most: 1024")
         out = self.folder / "out"
         self.study = self.write("u.yaml", text)
         done = self.succeed(["run", self.study, "-o", out])
@@ -113,20 +125,20 @@ class Until(InFolder):
         with h5py.File(out / "fragility.h5") as file:
             surface = file["edp/delta/surface"]
             half_width = (surface["upper"][()] - surface["lower"][()]).max() / 2
-        self.assertGreaterEqual(until["half_width_reached"], half_width)
+        self.assertGreaterEqual(until["half_width_reached"], of_points(until["points"]) * half_width)
         self.assertTrue(any("was to be known" in warning for warning in summary["warnings"]))
         self.assertGreater(until["samples_needed"], 1e5)
         self.assertIn("samples are needed: raise at_most from 1024", done.stderr)
         alone = self.succeed(["sweep", self.study, "-o", self.folder / "alone", "--quiet"])  # no fit will tell
-        self.assertIn("was to be known to +-0.001, and after 1024 samples", alone.stderr)
+        self.assertIn(f"was to be known to +-0.001 at all {until['points']} points at once, and after 1024 samples", alone.stderr)
         self.assertEqual(alone.stderr.count("\n"), 1)
-        reached = TEXT.replace("half_width: 0.08", "half_width: 0.49")
+        reached = TEXT.replace("half_width: 0.15", "half_width: 0.49")
         self.succeed(["run", self.write("v.yaml", reached), "-o", self.folder / "v"])
         self.assertTrue(json.loads((self.folder / "v" / "summary.json").read_text())["until"]["reached"])
 
     def test_records_that_are_too_few_are_told(self):
         write_records(self.folder / "records")
-        text = TEXT.replace("until: {half_width: 0.08, at_most: 200000}", "until: {half_width: 0.05, at_most: 4096}")
+        text = TEXT.replace("until: {half_width: 0.15, at_most: 200000}", "until: {half_width: 0.05, at_most: 4096}")
         text = text.replace("  - {pulse: [A, B, C1], period_s: {uniform: [0.3, 1.5]}, peak_acceleration_g: {uniform: [0.1, 2]}}",
                             '  - {records: "records/*.csv", scale_to: {pta_g: {uniform: [0.1, 1]}}}').replace(", axes: [friction.mu_k]", "")
         done = self.succeed(["run", self.write("r.yaml", text), "-o", self.folder / "out"])

@@ -15,6 +15,11 @@ namespace {
 
 using test::counted, test::options;
 
+// z(1 - 0.025/points)/z(0.975), of points whose half widths hold at once with a confidence of 95 %:
+//   python3 -c 'from statistics import NormalDist as N; q = N().inv_cdf; print([q(1 - 0.025/m)/q(0.975) for m in (2, 3, 4, 9)])'
+constexpr double of_two = 1.1435938340116685, of_three = 1.2214407094731936, of_four = 1.2743629444795703,
+                 of_nine = 1.4147817595022727;
+
 // Two bins of 20 and 2000 samples, a second axis with a common cell and one of 100 samples, and one of 3.
 Result with_axis() {
   Options o = options(0, false);
@@ -54,8 +59,9 @@ TEST(HalfWidth, IsTheLargestOfTheSurfacesAndTheirSecondAxes) {
   const HalfWidth wanted = half_width(result, {.half_width = 0.02, .at_most = 6000});
   EXPECT_EQ(wanted.rare_cells, 1);
   EXPECT_EQ(wanted.on_axis, 1.5);
-  EXPECT_EQ(wanted.largest, widest(edp.axes[0].lower, edp.axes[0].upper));
-  EXPECT_GT(wanted.largest, widest(edp.surface.lower, edp.surface.upper));
+  EXPECT_EQ(wanted.points, 9);  // of the bin, and of two cells
+  EXPECT_NEAR(wanted.largest, of_nine * widest(edp.axes[0].lower, edp.axes[0].upper), 1e-12);
+  EXPECT_GT(wanted.largest, of_nine * widest(edp.surface.lower, edp.surface.upper));
   EXPECT_EQ(half_width(result, {.half_width = 0.02, .at_most = 21000}).rare_cells, 0);
 
   edp.axes.clear();
@@ -165,6 +171,55 @@ TEST(HalfWidth, TheWidestBandIsNotTheOneThatIsFarthestFromARelativeError) {
   EXPECT_EQ(found.im, result.im[1]);
   const HalfWidth plain = half_width(result, {.half_width = 0.01});
   EXPECT_EQ(plain.farthest, plain.largest);
+  EXPECT_NEAR(plain.largest, of_two * found.largest, 1e-12);
+}
+
+// All points at once: the more there are, the wider. A single one is known as its band says.
+TEST(HalfWidth, HoldsAtAllPointsAtOnce) {
+  const auto band = [](const Result& result) {
+    return widest(result.edps[0].surface.lower, result.edps[0].surface.upper);
+  };
+  const Result one = hits({900}, 0.5), four = hits({900, 900, 900, 900}, 0.5);
+  EXPECT_EQ(half_width(one, {.half_width = 0.01}).largest, band(one));
+  const HalfWidth found = half_width(four, {.half_width = 0.01});
+  EXPECT_NEAR(found.largest, of_four * band(four), 1e-12);
+  EXPECT_EQ(found.farthest, found.largest);
+  EXPECT_NEAR(found.times_wanted, found.largest / 0.01, 1e-12);
+  EXPECT_NEAR(outlook(four, {.half_width = 0.01}).samples, 3600 * std::pow(found.largest / 0.01, 2), 1e-6);
+  EXPECT_EQ(half_width(four).largest, band(four));  // nothing is wanted of it
+  Result few = four;
+  few.edps[0].surface.lower[0] = 0.05, few.edps[0].surface.upper[0] = 0.95;
+  EXPECT_EQ(half_width(few, {.half_width = 0.01}).largest, 0.5);  // no probability is known worse
+  EXPECT_EQ(half_width(few, {.half_width = 0.01}).times_wanted, 50);
+}
+
+// A standard error is that of a point by itself, beside as many others as there may be; with both wishes the narrower band is wanted.
+TEST(HalfWidth, OfARelativeErrorIsThatOfEachPoint) {
+  const Result one = hits({900}, 0.4), four = hits({900, 900, 900, 900}, 0.4);
+  Wanted wanted{.relative_error = 0.1, .down_to = 0.001};
+  const double alone = half_width(one, wanted).times_wanted;
+  EXPECT_EQ(half_width(four, wanted).times_wanted, alone);
+  EXPECT_EQ(half_width(four, wanted).largest, half_width(one, wanted).largest);
+  EXPECT_NEAR(outlook(four, wanted).samples, 4 * outlook(one, wanted).samples, 1e-6);
+  wanted.half_width = 0.1;
+  EXPECT_EQ(half_width(four, wanted).times_wanted, alone);
+  wanted.half_width = 0.04;
+  EXPECT_NEAR(half_width(four, wanted).times_wanted, of_four * half_width(one).largest / 0.04, 1e-12);
+}
+
+// Student's t of four degrees of freedom: with a = 4 p (1 - p) and q = cos(arccos(sqrt(a))/3)/sqrt(a), t = 2 sqrt(q - 1)
+// (W. Shaw, J. Computational Finance 9, 2006). Of five records it is this and not the normal distribution's.
+TEST(HalfWidth, OfFewRecordsGoesByStudentsT) {
+  const auto t = [](double tail) {
+    const double root = std::sqrt(4 * tail * (1 - tail));
+    return 2 * std::sqrt(std::cos(std::acos(root) / 3) / root - 1);
+  };
+  const Result result = fit(counted(options(5), {5, 60, 0.1, 1}, 70));
+  const HalfWidth found = half_width(result, {.half_width = 0.01});
+  const double band = widest(result.edps[0].surface.lower, result.edps[0].surface.upper);
+  EXPECT_NEAR(found.largest, t(0.025 / 3) / t(0.025) * band, 1e-9);
+  EXPECT_GT(found.largest, 1.1 * of_three * band);
+  EXPECT_LT(found.largest, 0.5);
 }
 
 // By one half width more records are wanted where most stays; by a relative error where that is most of what is wanted.
@@ -192,6 +247,7 @@ TEST(BinsThatWant, AreThoseThatAreNotKnownWellEnough) {
   const auto want = [&](double half) { return bins_that_want(result, {.half_width = half}); };
   EXPECT_EQ(want(0.03), (std::vector<bool>{true, false, true, false}));
   EXPECT_EQ(want(0.1), (std::vector<bool>{true, false, false, false}));
+  EXPECT_EQ(want(0.07), (std::vector<bool>{true, false, true, false}));  // 0.083 of four points at once
   EXPECT_EQ(want(0.01), (std::vector<bool>(4, true)));
   result.edps[0].bins[3].n = 0;  // never reached
   EXPECT_EQ(want(0.1), (std::vector<bool>{true, false, false, true}));
