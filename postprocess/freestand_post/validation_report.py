@@ -54,7 +54,7 @@ def _compared(comparison):
     if comparison.unit == "noise units" and math.isfinite(expected):
         role = "calibration" if comparison.calibration else "holdout"
         tests = [test for test in comparison.tests if test["role"] == role]
-        told = [test for test in tests if not test["error_of_noise"] > FANNED_OUT]
+        told = [test for test in tests if test["error_expected"] <= FANNED_OUT]
         whose = "its tests"
         if 0 < len(told) < len(tests):
             whose = "those tests that the floor's noise does not drown"

@@ -73,7 +73,6 @@ Json test_json(const Bench& bench, const TestComparison& t) {
                {"error_relative", number_or_null(t.error.relative)},
                {"error_floor_noise_allowed", number_or_null(t.explained)},
                {"error_expected", number_or_null(t.expected)},
-               {"error_of_noise", number_or_null(t.of_noise)},
                {"score", number_or_null(t.error.score)},
                {"outcome", name(t.model.response.outcome)},
                {"peaks", peaks_json(test, t.model)}};
@@ -204,7 +203,7 @@ Json posterior_json(const Posterior& open) {
 std::string unread_floors(const Bench& bench, const std::vector<TestComparison>& tests) {
   std::vector<UnreadFloor> floors;
   for (const TestComparison& t : tests)
-    if (bench.test(t.test).has_history()) floors.push_back({&bench.test(t.test), t.unread, t.of_noise});
+    if (bench.test(t.test).has_history()) floors.push_back({&bench.test(t.test), t.unread, t.expected});
   return told_of_unread(floors);
 }
 

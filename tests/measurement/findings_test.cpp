@@ -261,11 +261,10 @@ TEST(Findings, WhatTheFloorDidBetweenItsReadingsAsksForNoEffect) {
                                                    std::pow(seldom * error * bench.noise(static_cast<Channel>(c)), 2));
       tests.push_back(compare_test(bench, i, model, {}, bench.spread(model, i, {}, p), unread));
       EXPECT_NEAR(tests.back().unread, seldom * error, 1e-9 * error);
-      EXPECT_NEAR(tests.back().expected, std::hypot(tests.back().of_noise, seldom * error), 1e-9 * error);
     }
     const std::vector<std::string> found = compare(bench, model, {}, std::move(tests), {}).findings;
     const char *asks = "diagnose asks what is missing",
-               *between = "and what the floor did between its readings, alone would make";
+               *between = "what the floor did between its readings may be all that is left";
     EXPECT_THAT(found, Contains(HasSubstr(seldom == 0 ? asks : between)));
     EXPECT_THAT(found, Not(Contains(HasSubstr(seldom == 0 ? between : asks))));
   }

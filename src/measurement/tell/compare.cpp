@@ -128,7 +128,7 @@ void fill(ErrorTable& table, std::size_t count, const std::vector<Sample>& sampl
 std::vector<ErrorTable> tables(const Bench& bench, const std::vector<TestComparison>& tests, Role role) {
   std::vector<Sample> samples;
   for (const TestComparison& c : tests)
-    if (bench.test(c.test).role == role && !c.model.failed() && !(c.of_noise > drowned)) add_samples(bench, c, samples);
+    if (bench.test(c.test).role == role && !c.model.failed() && !(c.expected > drowned)) add_samples(bench, c, samples);
   std::vector<ErrorTable> all;
   if (samples.empty()) return all;
   ErrorTable by_phase{.variable = "phase", .unit = "1"};
@@ -160,6 +160,21 @@ std::vector<std::size_t> worst_histories(const Bench& bench, const std::vector<T
   });
   order.resize(std::min<std::size_t>(order.size(), 5));
   return order;
+}
+
+// Over channels and time [noise units].
+double root_mean_square(const Bench& bench, const Spread& spread) {
+  double square = 0;
+  int channels = 0;
+  for (std::size_t c = 0; c < spread.size(); ++c) {
+    const double noise = bench.noise(static_cast<Channel>(c));
+    if (spread[c].empty() || !(noise > 0)) continue;
+    double sum = 0;
+    for (const double variance : spread[c]) sum += variance / (noise * noise);
+    square += sum / static_cast<double>(spread[c].size());
+    ++channels;
+  }
+  return std::sqrt(square / std::max(channels, 1));
 }
 
 }  // namespace
@@ -206,18 +221,15 @@ std::vector<Phase> phases(const Bench& bench, const Test& test) {
 
 TestComparison compare_test(const Bench& bench, std::size_t i, const ModelSpec& model, std::span<const double> x,
                             Spread spread, const Spread& unread) {
-  TestComparison c{.test = i, .explained = unknown, .expected = unknown, .of_noise = unknown, .unread = unknown};
+  TestComparison c{.test = i, .explained = unknown, .expected = unknown, .unread = unknown};
   const Test& test = bench.test(i);
   c.model = predict(model, test, x);
   c.error = kind(test) == Kind::outcome ? test_error(bench, i, model, x) : test_error(bench, i, c.model);
   if (!test.has_history()) return c;
   c.spread = std::move(spread);
-  c.of_noise = expected_error(bench, c.spread);
-  for (std::size_t k = 0; k < unread.size(); ++k)
-    std::ranges::transform(c.spread[k], unread[k], c.spread[k].begin(), std::plus<>());
   c.explained = explained_error(bench, i, c.model, c.spread);
   c.expected = expected_error(bench, c.spread);
-  c.unread = std::sqrt(std::max(0.0, c.expected * c.expected - c.of_noise * c.of_noise));
+  c.unread = root_mean_square(bench, unread);
   for (int k = 0; k < channel_count; ++k) {
     const auto channel = static_cast<Channel>(k);
     if (!history(test, channel).empty())

@@ -22,15 +22,15 @@ struct ChannelError {
   double autocorrelation = 0;                      // of the residual, one step apart; 0 for white noise
 };
 
-// Noise units that the noise of the floor makes alone (`of_noise`), beyond which a test tells little.
+// Noise units that the noise of the floor makes alone (`expected`), beyond which a test tells little.
 inline constexpr double drowned = 5;
 
 struct TestComparison {
   std::size_t test = 0;
   TestError error = {};
-  // Histories only, else nan: explained_error(); expected_error(), and its parts, which add up by squares: of the noise of sensors and floor,
-  // and of what the floor did between its readings.
-  double explained = 0, expected = 0, of_noise = 0, unread = 0;
+  // Histories only, else nan: explained_error(), expected_error(), and what the floor may have done to the history between its readings, root
+  // mean square [noise units]: at most so much, of a floor that is not smooth there.
+  double explained = 0, expected = 0, unread = 0;
   std::vector<ChannelError> channels = {};
   Prediction model = {};
   Spread spread = {};

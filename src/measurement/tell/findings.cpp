@@ -70,7 +70,7 @@ class Findings {
       for (const TestComparison& t : c_.tests) {
         if (bench_.test(t.test).role != role || !bench_.test(t.test).has_history()) continue;
         all.add(t);
-        if (!(t.of_noise > drowned)) judged.add(t);
+        if (!(t.expected > drowned)) judged.add(t);
       }
       if (all.n == 0) continue;
       std::string part;
@@ -78,12 +78,13 @@ class Findings {
         part = fmt::format("; without those in which that noise fans out, by {} where it would make {}",
                            judged.error_text(), three_digits(judged.floor()));
       const bool near = judged.n > 0 && judged.error() < nearly * judged.floor();
-      say("{} tests are missed by {} noise units (root mean square{}); the noise of sensors and floor{} alone would "
-          "make {}{}{}",
+      const bool unread = !near && judged.n > 0 && judged.error() < nearly * judged.floor_and_unread();
+      say("{} tests are missed by {} noise units (root mean square{}); the noise of sensors and floor alone would make "
+          "{}{}{}",
           role == Role::calibration ? "calibration" : "held-out", all.error_text(), by_channel(all),
-          all.unread > all.of_noise ? ", and what the floor did between its readings," : "", three_digits(all.floor()),
-          part,
-          near                                                  ? left_to_explain(judged, role)
+          three_digits(all.floor()), part,
+          near     ? left_to_explain(judged, role)
+          : unread ? ": what the floor did between its readings may be all that is left"
           : judged.n > 0 && role == Role::calibration           ? ": diagnose asks what is missing"
           : judged.n == 0 && all.error() < nearly * all.floor() ? ", so that they cannot be judged"
                                                                 : "");
@@ -92,13 +93,12 @@ class Findings {
   }
 
   struct Pool {
-    double square = 0, expected = 0, of_noise = 0, unread = 0, n = 0;
+    double square = 0, expected = 0, unread = 0, n = 0;
     bool capped = false;
     std::vector<const TestComparison*> tests = {};
     void add(const TestComparison& t) {
       square += t.error.noise_units * t.error.noise_units;
       expected += t.expected * t.expected;
-      of_noise += t.of_noise * t.of_noise;
       unread += t.unread * t.unread;
       capped |= t.error.noise_units >= failed_error;
       tests.push_back(&t);
@@ -106,6 +106,7 @@ class Findings {
     }
     double error() const { return std::sqrt(square / n); }
     double floor() const { return std::sqrt(expected / n); }
+    double floor_and_unread() const { return std::sqrt((expected + unread) / n); }
     std::string error_text() const { return (capped ? "at least " : "") + three_digits(error()); }
   };
 
@@ -148,7 +149,7 @@ class Findings {
     unsigned going = 0, n = 0;
     for (const TestComparison* t : tests)
       for (const ChannelError& e : t->channels) {
-        if (!(bench_.noise(e.channel) > 0) || t->of_noise > drowned) continue;
+        if (!(bench_.noise(e.channel) > 0) || t->expected > drowned) continue;
         const auto& variance = t->spread[static_cast<std::size_t>(e.channel)];
         double spread = 0;
         for (const double v : variance)
@@ -281,7 +282,7 @@ class Findings {
     unsigned right = 0, left = 0;
     for (const TestComparison& t : c_.tests) {
       const Test& test = bench_.test(t.test);
-      if (test.slip_m.empty() || t.model.failed() || t.of_noise > drowned) continue;
+      if (test.slip_m.empty() || t.model.failed() || t.expected > drowned) continue;
       const double end = t.model.slip_m.back() - test.slip_m.back();
       if (std::abs(end) > 6 * bench_.noise(Channel::slip)) ++(end > 0 ? right : left);
     }
@@ -297,7 +298,7 @@ class Findings {
   void chaotic() {
     std::vector<std::string> ids;
     for (const TestComparison& t : c_.tests)
-      if (t.of_noise > drowned) ids.push_back(bench_.test(t.test).id);
+      if (t.expected > drowned) ids.push_back(bench_.test(t.test).id);
     if (!ids.empty())
       say("the noise of the measured floor motion fans out in {}: parts of these histories cannot be predicted by any "
           "model, and say nothing for or against one",

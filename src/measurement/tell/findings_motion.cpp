@@ -70,7 +70,7 @@ class MotionFindings {
                  const std::vector<TestComparison>& tests)
       : bench_(bench), model_(model), x_(x) {
     for (const TestComparison& t : tests)
-      if (!t.model.failed() && !(t.of_noise > drowned))
+      if (!t.model.failed() && !(t.expected > drowned))
         tests_.push_back({t.test, motions(bench, t, specimen(model, bench.test(t.test), x).block.half_base_m())});
   }
 

@@ -172,9 +172,7 @@ void EffectSearch::judge() {
     for (Candidate& c : out_.candidates)
       if (c.visible && c.fit.left_out_refitted) fits.push_back(&c.fit);
     weigh_floor_noise(bench_, judge, fits, jobs_);
-    out_.noise_floor.clear();
-    for (std::size_t i = 0; i < tests_; ++i)
-      out_.noise_floor.push_back(std::hypot(judge.expected()[i], judge.unread()[i]));
+    out_.noise_floor = judge.expected();
     judge_histories(bench_, judge, out_, jobs_);
   }
 }
