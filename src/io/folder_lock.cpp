@@ -207,18 +207,21 @@ bool FolderLock::create() {
   throw file_error("write", path_, error_number);
 }
 
-// Of several that take over, one gets the dead lock under its own name. Who gets a new one instead gives it back.
+// One at a time looks again whether the dead lock is still there, and takes it away: none takes a new one for it. Who does not get that done
+// for as long as a holder may be silent is dead.
 void FolderLock::take_over(const std::string& text) const {
-  const fs::path aside = aside_name(path_);
-  if (::rename(path_.c_str(), aside.c_str()) != 0) {
-    if (errno == ENOENT) return;
-    throw file_error("take over", path_, errno);
+  const fs::path turn = path_.parent_path() / fmt::format(".{}.taken_over.part", lock_name);  // is_aside_name()
+  const auto end = Clock::now() + std::chrono::duration<double>(settings_.silence_s);
+  int descriptor = -1;
+  while ((descriptor =
+              uninterrupted([&] { return ::open(turn.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644); })) < 0) {
+    if (errno != EEXIST) throw file_error("take over", path_, errno);
+    if (Clock::now() > end) ::unlink(turn.c_str());
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
-  const auto taken = look_at(aside);
-  if (!taken || taken->text == text)
-    ::unlink(aside.c_str());
-  else
-    ::rename(aside.c_str(), path_.c_str());
+  ::close(descriptor);
+  if (const auto there = look_at(path_); there && there->text == text) ::unlink(path_.c_str());
+  ::unlink(turn.c_str());
 }
 
 bool FolderLock::is_ours() const {

@@ -79,6 +79,17 @@ TEST(FolderLock, IsGivenBackAtTheEndAndOnErrors) {
   EXPECT_TRUE(fs::is_empty(scratch.folder()));
 }
 
+// Whoever died while it took a lock over keeps nobody out for longer than a holder may be silent, and leaves a file that others remove.
+TEST(FolderLock, WhatATakerLeftKeepsNobodyOut) {
+  const test::Scratch scratch("lock");
+  die_with_the_lock(scratch.folder());
+  const fs::path turn = scratch / ".freestand.lock.taken_over.part";
+  std::ofstream(turn) << "";
+  EXPECT_TRUE(is_aside_name(turn));
+  EXPECT_NO_THROW(FolderLock(scratch.folder(), {.silence_s = 0.3}));
+  EXPECT_FALSE(fs::exists(turn));
+}
+
 // As an entry of a catalogue does that is ended where it stands, within the lock of the catalogue.
 TEST(FolderLock, AllOfAProcessAreGivenBackTogether) {
   const test::Scratch outer("lock"), inner("inner_lock");
