@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "measurement/verdict/answers.hpp"
 #include "measurement/verdict/decide.hpp"
 
 namespace freestand::measurement {
