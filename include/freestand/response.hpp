@@ -60,7 +60,7 @@ struct Response {
   int wall_hits = 0;               // blows of walls, or of a neighbour
   double wall_speed_mps = 0;       // largest speed of an edge at such a blow, towards what it strikes
   int events = 0;                  // all mode changes and impacts
-  double end_time_s = 0;           // when the integration could stop: at rest for good, or overturned
+  double end_time_s = 0;           // when it is at rest for good (not before the motion ends; after the last of its endless hops), or overturned
 };
 
 // One change of mode, for tests, histories and error reports.

@@ -378,7 +378,7 @@ Response Integration::result() {
   response.outcome = outcome_;
   response.residual_slip_m = slip();
   response.residual_rotation_rad = state.theta;
-  response.end_time_s = cursor.time();
+  response.end_time_s = cursor.motion_over() ? std::fmax(cursor.time(), hops_end_) : cursor.time();
   response.connection_failed = rig.laws && rig.laws->broken(state.sides);
   if (response.connection_failed) peaks.broke_at(rig.laws->strength);
   if (outcome_ == Outcome::overturned)

@@ -156,6 +156,7 @@ class Integration {
   bool finished_ = false;
   bool moved_ = false;
   double rest_since_ = 0;     // [s]
+  double hops_end_ = 0;       // the last row of hops with which the block came to stand on both corners [s]
   double took_off_from_ = 0;  // the centre of mass, in the last flight [m]
   double unslid_ = 0;         // it flew so far in all, and began so far from 0 [m]
   double p_;

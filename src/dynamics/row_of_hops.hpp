@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 
 namespace freestand::dynamics {
 
@@ -61,6 +62,7 @@ inline double given_ahead(double pull, double change, double time) {
 // A row of hops as a corner is about to strike.
 struct HopRow {
   double rate, slip;
+  bool felt = true;    // its accelerations count
   double lasts = 0;    // until now [s]
   bool stops = false;  // the slip was zero since this was last cleared
 };
@@ -68,6 +70,22 @@ struct HopRow {
 // A row that started with `rate`, as its first two hops tell [s].
 inline double lasts_in_all(double rate, const HopRow& after_two) {
   return after_two.lasts / (1 - after_two.rate / rate);
+}
+
+// The same of a row without slip that starts with `rate` on one corner: pulls back to the floor [rad/s2], on it and on the other one, and
+// what of the rate is kept where the stay on each ends.
+inline double lasts_in_all(double rate, double pull, double kept, double other_pull, double other_kept) {
+  return 2 * rate * (1 / pull + kept / other_pull) / (1 - kept * other_kept);
+}
+
+// The same where the floor's acceleration changes evenly, for `left` seconds. On a steady floor a row loses the same part of its first rate
+// in every second, `now` being how long it lasts on the floor as it is and lasts(time) on the floor as it is then; here that part changes
+// evenly. Infinite: it comes to no end.
+template <class Lasts>
+double lasts_on_changing_floor(double now, double left, Lasts&& lasts) {
+  const double later = std::fmin(now, 0.5 * left);
+  const double square = 1 / (now * now) + 2 * (1 / lasts(later) - 1 / now) / later;
+  return square >= 0 ? 2 / (1 / now + std::sqrt(square)) : std::numeric_limits<double>::infinity();
 }
 
 // Along a row in which the slip stops, and maybe goes on; the slip with which it leaves the row, which is zero where it ends with the
@@ -82,13 +100,14 @@ double slip_after_stops(HopRow& row, TwoHops&& two_hops) {
     const HopRow before = row;
     row.stops = false;
     if (!two_hops(row)) return 0;
-    const double kept = row.rate / before.rate, gained = row.slip - before.slip;
+    const double kept = row.rate / before.rate, gained = row.slip - before.slip, lasts = row.lasts - before.lasts;
     if (!(kept > 0 && kept < 1)) return 0;
+    const double all = 1 / (1 - kept), limit = before.slip + gained * all;
     if (row.stops || row.slip * before.slip <= 0) {
-      if (std::abs(row.slip - kept * before.slip) <= alike * std::abs(row.slip)) return 0;
-      continue;
+      if (std::abs(row.slip - kept * before.slip) > alike * std::abs(row.slip)) continue;
+      row.lasts = before.lasts + lasts * all;
+      return 0;
     }
-    const double all = 1 / (1 - kept), limit = before.slip + gained * all, lasts = row.lasts - before.lasts;
     const bool outlasts = limit * before.slip > 0;
     // Up to the two hops in which it stops.
     const double left =

@@ -2,6 +2,8 @@
 //
 // Which of its hops are gone through is a matter of the tolerance; the row belongs to the motion, and its accelerations to the
 // largest one. In the limit of small hops all that start on one corner are alike, so that two of them tell, one on either corner.
+#include <limits>
+
 #include "dynamics/impact.hpp"
 #include "dynamics/integration.hpp"
 #include "dynamics/row_of_hops.hpp"
@@ -21,6 +23,7 @@ bool Integration::strike_floor() {
     return true;
   }
   const double after = slip_after_stops(row, two_hops);
+  if (cursor.motion_over()) hops_end_ = cursor.time() + row.lasts;
   if (after != 0) leave_row(after, row.lasts);
   return true;
 }
@@ -38,13 +41,23 @@ void Integration::leave_row(double slip, double lasted) {
 
 // The floor moves on while the row lasts. row: after its first two hops.
 void Integration::feel_end_of_row(const State& from, const HopRow& row) {
-  const double lasts = lasts_in_all(from.omega, row);
-  if (!(lasts < cursor.left())) return;
   const FloorCursor here = cursor;
-  cursor.advance(lasts);
-  HopRow end{from.omega, from.w};
-  feel_two_hops(from, end);
-  cursor = here;
+  const auto two_hops_later = [&](double time, bool felt) {
+    HopRow later{from.omega, from.w, felt};
+    cursor = here;
+    cursor.advance(time);
+    const bool hops = feel_two_hops(from, later);
+    cursor = here;
+    return hops ? lasts_in_all(from.omega, later) : std::numeric_limits<double>::infinity();
+  };
+  const double now = lasts_in_all(from.omega, row);
+  if (cursor.motion_over() || !(now > 0)) {
+    hops_end_ = cursor.time() + now;
+    return;
+  }
+  const double left = cursor.left();
+  const double lasts = lasts_on_changing_floor(now, left, [&](double time) { return two_hops_later(time, false); });
+  if (lasts < left) two_hops_later(lasts, true);
 }
 
 // The corner of `hop` that is raised strikes. False: no two hops follow.
@@ -66,7 +79,7 @@ bool Integration::feel_hop(State& hop, HopRow& row) {
     if (!choose_mode(rig, cursor, hop) || hop.pivot == 0) return false;
     bool slips_on = true;
     const bool goes_on = with_contact_arc<2>(rig, hop, cursor.time(), cursor.local<2>(), [&](const auto& arc) {
-      peaks.observe(rig, hop, arc, 0);
+      if (row.felt) peaks.observe(rig, hop, arc, 0);
       const double fall = fall_time(hop.pivot, arc.theta), stops = -slip_speed(arc)[0] / slip_speed(arc)[1];
       slips_on = hop.sigma == 0 || !(stops > 0 && stops < fall);
       const double time = slips_on ? fall : stops;

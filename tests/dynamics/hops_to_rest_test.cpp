@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/units.hpp"
+#include "support/solvers.hpp"
 
 namespace freestand::test {
 namespace {
@@ -97,6 +98,36 @@ INSTANTIATE_TEST_SUITE_P(Blocks, HopsToRest,
                                          Family{"slide-rock off centre", Model::slide_rock, ImpactLaw::housner, -0.1},
                                          Family{"slide-rock, Coulomb's impacts", Model::slide_rock, ImpactLaw::coulomb,
                                                 0.1}));
+
+// On a still floor the hops of a row from so small a rotation fall with the weight alone: each lasts 2 rate/alpha, and the whole endless row is
+// a geometric series on either corner. How many of its hops are gone through is a matter of the tolerance, its end is not.
+FREESTAND_ON_BOTH_SOLVERS(EndOfHops);
+
+TEST_P(EndOfHops, IsThatOfTheEndlessRow) {
+  const FloorMotion still = piecewise_linear("still", 0.001, std::vector<double>(2, 0.0));
+  for (const double offset : {0.0, 0.3, -0.6}) {
+    Specimen specimen;
+    specimen.block = slender_block(offset);
+    specimen.friction = {1.2, 1.2};
+    specimen.model = Model::rock;
+    specimen.start.rotation_rad = 2e-5;  // on the right corner
+    const Block& block = specimen.block;
+    const double size = block.gyration2_m2 + block.height_m * block.height_m, here = block.right_m,
+                 there = block.left_m;
+    const double falls = standard_gravity_mps2 * here / (size + here * here),
+                 falls_there = standard_gravity_mps2 * there / (size + there * there);
+    const double kept = (size - here * there) / (size + there * there),
+                 kept_there = (size - here * there) / (size + here * here);
+    const double rate = std::sqrt(2 * falls * specimen.start.rotation_rad);
+    const double row = 2 * kept * rate * (1 / falls_there + kept_there / falls) / (1 - kept * kept_there);
+    for (const double tolerance : {1e-8, 1e-12}) {
+      const Response response = GetParam()(specimen, {&still}, {.tolerance = tolerance});
+      EXPECT_EQ(response.outcome, Outcome::moved);
+      EXPECT_NEAR(response.end_time_s, rate / falls + row, 2e-4 * row)
+          << "offset " << offset << ", tolerance " << tolerance;
+    }
+  }
+}
 
 }  // namespace
 }  // namespace freestand::test

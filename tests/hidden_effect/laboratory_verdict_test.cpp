@@ -149,6 +149,35 @@ TEST(LaboratoryVerdict, NoEffectIsNamedForTwoDimensions) {
   EXPECT_EQ(d.verdict, Verdict::bad_data) << testing::PrintToString(d.sentences);
 }
 
+// mu_k 0.237, mu_s/mu_k 1.51, slips that are read to 0.23 mm and floors to 0.009 m/s2, tests of 12 to 30 s that peak at 1.2 to 3 mu g: a friction
+// that falls with speed comes close, and is not named.
+void read_well(MadeSet& set) {
+  DrawnTruth& drawn = set.drawn;
+  const double friction = 0.237 / drawn.truth.mu_k;
+  drawn.truth.mu_k = drawn.truth.mu_s = 0.237;
+  drawn.truth.effects[0].parameters["ratio"] = 1.51;
+  set.slip_noise_m = 0.00023;
+  set.floor_noise_mps2 = 0.009;
+  for (std::size_t i = 0; i < set.tests.size(); ++i) {
+    MadeTest& test = set.tests[i];
+    KeyedRandom random(237, i);
+    for (double& a : test.floor.horizontal_mps2) a *= friction;
+    test.measured_floor.horizontal_mps2 = test.floor.horizontal_mps2;
+    for (double& a : test.measured_floor.horizontal_mps2) a += set.floor_noise_mps2 * random.normal();
+    test.truth = simulate(drawn.truth, test.floor, 2.5e-5);
+    test.slip_m = test.truth.slip_m;
+    for (double& slip : test.slip_m) slip += set.slip_noise_m * random.normal();
+  }
+}
+
+TEST(LaboratoryVerdict, NamesNoFrictionThatFallsWithSpeedForOneThatHolds) {
+  SetRequest r = request({"static_friction"}, "", 8, 237, 20);
+  r.unpicked = true;
+  const Diagnosis d = diagnosed(r, {"static_friction", "rate_weakening"}, read_well);
+  EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
+  EXPECT_EQ(d.effects, std::vector<std::string>{"static_friction"});
+}
+
 // What the block did comes a third of a second before its floor: said at once, without a search.
 TEST(LaboratoryVerdict, AResponseThatBeginsBeforeItsFloorIsBadData) {
   const Diagnosis d = diagnosed(request({"static_friction"}, ""), {"static_friction"}, [](MadeSet& set) {

@@ -70,6 +70,10 @@ std::vector<std::string> studies() {
       block + friction +
       "model: slide\neffects: [{name: x, friction: \"if((path>0)*(abs(theta)<0.1),0.6,0.9)*if(v>0,mu,1.2*mu)\"}]\n" +
       records);
+  // A condition that holds for a slip to the one side earlier than for one to the other.
+  texts.push_back(block + friction +
+                  "model: slide\neffects: [{name: x, friction: \"if(abs(t - 2 - 0.5*sigma) < 0.05, 0.02, mu)\"}]\n" +
+                  records);
   // Walls beside a block whose centre of mass is not in the middle of its height.
   texts.push_back(
       "block: {width_m: {uniform: [0.5, 0.7]}, height_m: 1.6, centre_height_m: 0.5}\nfriction: {mu: 2}\n"

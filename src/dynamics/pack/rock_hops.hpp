@@ -130,11 +130,7 @@ class RockHops : public RockLanes {
     const double rate = r_.omega[i];
     if (rests && rate != 0) feel_row_of_hops(i);
     if (lane.after) {
-      const double inertia = c.k2 + c.h * c.h + c.right * c.left;
-      const double alpha = c.g * 0.5 * (c.left + c.right) / inertia, speed = magnitude(rate) / c.table->step_s;
-      const double time =
-          rests ? 0.0 : 2 * speed / alpha * (1 - pow_outside(lane.kept, hops_to_rest(i))) / (1 - lane.kept);
-      const double after = c.table->step_s * (knot(i) + 1 - r_.fraction[i]) + time;
+      const double after = c.table->step_s * (knot(i) + 1 - r_.fraction[i]) + row_lasts(i, rate, 0);
       if (after > c.free_vibration_s) return decline(i);
       finish(i, Outcome::moved, c.table->step_s * (c.table->knots - 1) + after, 0.0);
       return refill(i);
@@ -152,18 +148,25 @@ class RockHops : public RockLanes {
   void feel_row_of_hops(int i) {
     const Lane& lane = lanes_[i];
     const BatchCase& c = *lane.sample;
-    const double rate = magnitude(r_.omega[i]) / c.table->step_s, here = r_.a[i], side = r_.side[i];
-    const CornerConstants &on = corners(i).on(side), &other = corners(i).on(-side);
+    const double rate = r_.omega[i], here = r_.a[i];
     r_.omega[i] = 0;
     feel_on_both(i);
     if (lane.after) return;
-    const double first = 2 * rate / on.pull(c.scale * here, 0),
-                 second = 2 * rate * on.kept / other.pull(c.scale * here, 0);
-    const double part = (first + second) / (1 - on.kept * other.kept) / (c.table->step_s * r_.fraction[i]);
-    if (!(part > 0 && part < 1)) return;
-    r_.a[i] += (*r_.next[i] - here) * part;
+    const double left = c.table->step_s * r_.fraction[i];
+    const auto floor = [&](double time) { return here + (*r_.next[i] - here) * (time / left); };
+    const double lasts = lasts_on_changing_floor(row_lasts(i, rate, here), left,
+                                                 [&](double time) { return row_lasts(i, rate, floor(time)); });
+    if (!(lasts > 0 && lasts < left)) return;
+    r_.a[i] = floor(lasts);
     feel_on_both(i);
     r_.a[i] = here;
+  }
+  // On a floor that keeps its acceleration a, of the unit record.
+  double row_lasts(int i, double rate, double a) {
+    const BatchCase& c = *lanes_[i].sample;
+    const CornerConstants &on = corners(i).on(r_.side[i]), &other = corners(i).on(-r_.side[i]);
+    return lasts_in_all(magnitude(rate) / c.table->step_s, on.pull(c.scale * a, 0), on.kept, other.pull(c.scale * a, 0),
+                        other.kept);
   }
   // Ends on the corner where it began.
   void feel_on_both(int i) {
@@ -197,8 +200,10 @@ class RockHops : public RockLanes {
     const double slow = slowing(push);
     const double kept = 0.5 * (1 + lane.kept);
     if (2 * omega > (look - 1) * h * slow * (1 - kept)) return false;
+    if (!lane.after && m + 1 + look >= c.table->knots) return false;  // on the still floor it counts how long they last
     const double rotation = omega * omega / (2 * slow);
-    if (rotation > r_.peak[i] || rotation > 0.001 * arm / c.h) return false;  // 0.001: as in SlideRockHops::unnoticed
+    if (rotation > r_.peak[i] || rotation * c.h > (lane.after ? 1e-5 : 1e-3) * arm)
+      return false;  // as in SlideRockHops::unnoticed
     const double fast = (longer * c.g + c.h * push) / small;
     const double fx = push * magnitude(1 - c.h * c.h / large) + c.h * longer * c.g / small + 2 * c.h * omega * omega;
     const double fy = longer * fast + 2 * c.h * omega * omega;
@@ -215,7 +220,8 @@ class RockHops : public RockLanes {
   int hops_to_rest(int i) const {
     const Lane& lane = lanes_[i];
     const double ratio = lane.sample->rest_rotation / (lane.hop_here * r_.omega[i] * r_.omega[i]);
-    return lane.kept > 0 ? static_cast<int>(std::ceil(log_outside(ratio) / (2 * log_outside(lane.kept)))) : 1;
+    const double kept = lane.left.kept * lane.right.kept;  // of the rotation, hop by hop
+    return kept > 0 && ratio < 1 ? static_cast<int>(std::ceil(log_outside(ratio) / log_outside(kept))) : 1;
   }
 
   // The corner on which the lane does not stand.

@@ -60,7 +60,11 @@ class SlideRockHops : public SlideRockLane {
     ry_ = arm(side_) * sine + c_.h * (1 - lost);
     hops_ = false;
     const bool small = r.ended[i] > 0, many = r.hops[i] >= hops_at_once;
-    if ((small && ends_hops(side_, omega_)) || (many && dies_out())) return stand(Mode::rest, 0);
+    if (small && ends_hops(side_, omega_)) {
+      if (m_ >= last_) hopping_ = row_lasts(side_, magnitude(omega_));
+      return stand(Mode::rest, 0);
+    }
+    if (many && dies_out()) return stand(Mode::rest, 0);
     hops_ = small || many;
   }
 
@@ -85,22 +89,16 @@ class SlideRockHops : public SlideRockLane {
     RowOfHops row{span, square, magnitude(a_), 0, bounds_.slow, 1};
     if (!unnoticed(row)) return false;
     if (m_ < last_ && !(quiet_row(row) && unnoticed(row))) return false;
-    if (m_ >= last_) {
-      hop_to_end(omega);
-    } else if (const double both = on(-1).kept * on(1).kept; both > 0) {  // in a steady field
-      events_ += static_cast<int>(std::ceil(log_outside(c_.rest_rotation / hop(side_, omega)) / log_outside(both)));
-    }
+    if (m_ >= last_) hopping_ = row_lasts(side_, omega);
+    const double both = on(-1).kept * on(1).kept, size = hop(side_, omega);
+    if (both > 0 && size > c_.rest_rotation)  // in a steady field
+      events_ += static_cast<int>(std::ceil(log_outside(c_.rest_rotation / size) / log_outside(both)));
     if (events_ > most_events) declined_ = true;
     return true;
   }
-
   // On a still floor.
-  void hop_to_end(double omega) {
-    for (int side = side_; omega * omega >= on(side).rests; side = -side) {
-      hopping_ += 2 * omega * on(side).per_weight;
-      omega *= on(side).kept;
-      ++events_;
-    }
+  double row_lasts(int side, double omega) const {
+    return lasts_in_all(omega, on(side).weight, on(side).kept, on(-side).weight, on(-side).kept);
   }
 
   // The row of hops that starts on `side`, without slip, is over.

@@ -218,20 +218,33 @@ class SlideRockTrajectory : public SlideRockHops {
       return strike_and_hop(from, at) && feel_hop(-from, at) && strike_and_hop(-from, at) && feel_hop(from, at);
     };
     if (slip == 0 || w_ != 0) {
-      const double lasts = two_hops(row) && m_ < last_ ? lasts_in_all(omega_, row) : 0;
-      if (const double part = lasts / (h_ * fraction_); part > 0 && part < 1) {  // the floor moves on meanwhile
-        const Field here = field();
-        a_ += (next_floor() - a_) * part;
-        g_ += (next_gravity() - g_) * part;
-        HopRow end{omega_, slip};
-        two_hops(end);
-        a_ = here.a;
-        g_ = here.g;
-      }
-    } else if (const double after = slip_after_stops(row, two_hops); after != 0) {
-      leave_row(after, row.lasts);
+      if (two_hops(row)) feel_end_of_row(slip, lasts_in_all(omega_, row), two_hops);
+    } else {
+      const double after = slip_after_stops(row, two_hops);
+      if (m_ >= last_) hopping_ = row.lasts;
+      if (after != 0) leave_row(after, row.lasts);
     }
     choose_flat();
+  }
+  // now: how long the row would last on the floor as it is.
+  template <class TwoHops>
+  void feel_end_of_row(double slip, double now, TwoHops&& two_hops) {
+    if (m_ >= last_ || !(now > 0)) {
+      hopping_ = now;
+      return;
+    }
+    const Field here = field();
+    const double left = h_ * fraction_;
+    const auto two_hops_later = [&](double time, bool felt) {
+      a_ = here.a + (next_floor() - here.a) * (time / left);
+      g_ = here.g + (next_gravity() - here.g) * (time / left);
+      HopRow later{omega_, slip, felt};
+      return two_hops(later) ? lasts_in_all(omega_, later) : std::numeric_limits<double>::infinity();
+    };
+    const double lasts = lasts_on_changing_floor(now, left, [&](double time) { return two_hops_later(time, false); });
+    if (lasts < left) two_hops_later(lasts, true);
+    a_ = here.a;
+    g_ = here.g;
   }
   void leave_row(double slip, double lasted) {
     sigma_ = slip > 0 ? 1 : -1;
@@ -261,7 +274,7 @@ class SlideRockTrajectory : public SlideRockHops {
       if (!grips) f = slipping(-arm(side), c_.h, 0.0, field(), w);
       const double half_curvature = 0.5 * side * f.alpha;
       if (!(f.fy > 0)) return false;
-      feel(f.fx, f.fy);
+      if (row.felt) feel(f.fx, f.fy);
       const double down = (rate + std::sqrt(rate * rate - 4 * half_curvature * height)) / (-2 * half_curvature),
                    stops = -w / f.slip;
       const double fall = half_curvature < 0 ? down : 1e300;

@@ -8,6 +8,7 @@
 
 #include "base/key_names.hpp"
 #include "base/shown_text.hpp"
+#include "measurement/data/floor_readings.hpp"
 #include "motion/record_text.hpp"
 
 namespace freestand::measurement {
