@@ -300,15 +300,16 @@ double Formula::value(const Inputs& inputs, double mu, const std::vector<double>
 
 bool Formula::uses(std::size_t parameter) const { return looks_at(static_cast<int>(variables().size() + parameter)); }
 
-bool Formula::looks_at(const std::string& variable) const {
-  const auto found = std::find(variables().begin(), variables().end(), variable);
-  return looks_at(static_cast<int>(found - variables().begin()));
+namespace {
+int number_of(const std::string& variable) {
+  return static_cast<int>(std::find(variables().begin(), variables().end(), variable) - variables().begin());
 }
+}  // namespace
+
+bool Formula::looks_at(const std::string& variable) const { return looks_at(number_of(variable)); }
 
 bool Formula::turns_by_direction() const {
-  const auto bit = [](const char* name) {
-    return 1U << (std::find(variables().begin(), variables().end(), name) - variables().begin());
-  };
+  const auto bit = [](const char* name) { return 1U << number_of(name); };
   const unsigned sigma = bit("sigma"), changing = bit("t") | bit("rest") | bit("normal") | bit("theta") | bit("omega") |
                                                   bit("side") | bit("u") | bit("v");
   std::vector<unsigned> seen;  // by each operation

@@ -11,6 +11,7 @@
 namespace freestand::fragility {
 namespace {
 
+// Of n motions a standard error is known to 1/sqrt(2 (n - 1)): of ten to a quarter.
 constexpr int few_motions = 10;
 
 std::string with_unit(double value, const std::string& unit) {

@@ -297,19 +297,33 @@ double explained_error(const Bench& bench, std::size_t i, const Prediction& pred
   return std::sqrt(square / std::max(channels, 1));
 }
 
-double expected_error(const Bench& bench, const Spread& spread) {
+namespace {
+
+// besides(channel): what is added to the mean square of each.
+template <class Besides>
+double root_mean_square(const Bench& bench, const Spread& spread, Besides&& besides) {
   double square = 0;
   int channels = 0;
   for (int c = 0; c < channel_count; ++c) {
     const double noise = bench.noise(static_cast<Channel>(c));
     const auto& variance = spread[static_cast<std::size_t>(c)];
-    if (variance.empty() || noise <= 0) continue;
+    if (variance.empty() || !(noise > 0)) continue;
     double sum = 0;
     for (const double v : variance) sum += v / (noise * noise);
-    square += std::pow(bench.sensor(static_cast<Channel>(c)).size(), 2) + sum / static_cast<double>(variance.size());
+    square += besides(static_cast<Channel>(c)) + sum / static_cast<double>(variance.size());
     ++channels;
   }
   return std::sqrt(square / std::max(channels, 1));
+}
+
+}  // namespace
+
+double expected_error(const Bench& bench, const Spread& spread) {
+  return root_mean_square(bench, spread, [&](Channel channel) { return std::pow(bench.sensor(channel).size(), 2); });
+}
+
+double size_of(const Bench& bench, const Spread& spread) {
+  return root_mean_square(bench, spread, [](Channel) { return 0.0; });
 }
 
 std::vector<std::size_t> tests_of(const Dataset& data, Role role) {

@@ -91,6 +91,8 @@ double explained_error(const Bench&, std::size_t test, const Prediction&, const 
 
 // e that the true model would show: sqrt(sensor^2 + mean(spread/noise^2)), sensor: the size of its noise that was found, over the stated one.
 double expected_error(const Bench&, const Spread&);
+// sqrt(mean(spread/noise^2)), over channels and time.
+double size_of(const Bench&, const Spread&);
 
 // Positions of the tests of one role.
 std::vector<std::size_t> tests_of(const Dataset&, Role);

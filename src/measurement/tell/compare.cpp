@@ -162,21 +162,6 @@ std::vector<std::size_t> worst_histories(const Bench& bench, const std::vector<T
   return order;
 }
 
-// Over channels and time [noise units].
-double root_mean_square(const Bench& bench, const Spread& spread) {
-  double square = 0;
-  int channels = 0;
-  for (std::size_t c = 0; c < spread.size(); ++c) {
-    const double noise = bench.noise(static_cast<Channel>(c));
-    if (spread[c].empty() || !(noise > 0)) continue;
-    double sum = 0;
-    for (const double variance : spread[c]) sum += variance / (noise * noise);
-    square += sum / static_cast<double>(spread[c].size());
-    ++channels;
-  }
-  return std::sqrt(square / std::max(channels, 1));
-}
-
 }  // namespace
 
 const char* name(Phase phase) {
@@ -229,7 +214,7 @@ TestComparison compare_test(const Bench& bench, std::size_t i, const ModelSpec& 
   c.spread = std::move(spread);
   c.explained = explained_error(bench, i, c.model, c.spread);
   c.expected = expected_error(bench, c.spread);
-  c.unread = root_mean_square(bench, unread);
+  c.unread = size_of(bench, unread);
   for (int k = 0; k < channel_count; ++k) {
     const auto channel = static_cast<Channel>(k);
     if (!history(test, channel).empty())
