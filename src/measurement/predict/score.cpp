@@ -304,13 +304,13 @@ template <class Besides>
 double root_mean_square(const Bench& bench, const Spread& spread, Besides&& besides) {
   double square = 0;
   int channels = 0;
-  for (int c = 0; c < channel_count; ++c) {
-    const double noise = bench.noise(static_cast<Channel>(c));
-    const auto& variance = spread[static_cast<std::size_t>(c)];
-    if (variance.empty() || !(noise > 0)) continue;
+  for (std::size_t c = 0; c < spread.size(); ++c) {
+    const auto channel = static_cast<Channel>(c);
+    const double noise = bench.noise(channel);
+    if (spread[c].empty() || !(noise > 0)) continue;
     double sum = 0;
-    for (const double v : variance) sum += v / (noise * noise);
-    square += besides(static_cast<Channel>(c)) + sum / static_cast<double>(variance.size());
+    for (const double v : spread[c]) sum += v / (noise * noise);
+    square += besides(channel) + sum / static_cast<double>(spread[c].size());
     ++channels;
   }
   return std::sqrt(square / std::max(channels, 1));
