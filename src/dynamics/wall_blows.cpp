@@ -80,10 +80,21 @@ void Integration::lie_against(int side) {
 
 // The edge beside a wall touches it and neither comes nor leaves.
 bool Integration::rests_at_wall(int side) {
-  if (!rig.laws || !rig.laws->walls.on(side).stands || state.mode == Mode::flight || state.wall != 0) return false;
-  const Edge edge = touching_edge(state.pivot, side);
-  const EdgeNow now = edge_now(rig, state, side, edge);
-  if (now.gap > touching(rig) || std::abs(now.speed) > rig.slow()) return false;
+  if (!rig.laws || !rig.laws->walls.on(side).stands || state.wall != 0) return false;
+  const auto rests = [&](Edge edge) {
+    const EdgeNow now = edge_now(rig, state, side, edge);
+    return now.gap <= touching(rig) && std::abs(now.speed) <= rig.slow();
+  };
+  Edge edge = touching_edge(state.pivot, side);
+  if (state.mode == Mode::flight) {
+    const bool lower = rests(Edge::lower), upper = rests(Edge::upper);
+    if (lower && upper) {
+      lie_against(side);
+      return true;
+    }
+    edge = upper ? Edge::upper : Edge::lower;
+  }
+  if (!rests(edge)) return false;
   state.wall = side;
   state.edge = edge;
   return true;

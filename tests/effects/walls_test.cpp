@@ -188,6 +188,21 @@ TEST_P(Wall, AtGapZeroHolds) {
   EXPECT_NEAR(away.response.peak_slip_m, free.response.peak_slip_m, 1e-12);
 }
 
+// Thrown up beside it, without a push at first: what begins to push the block at the wall while it flies leaves it where it is.
+TEST_P(Wall, HoldsWhatIsPushedAtItInFlight) {
+  const FloorMotion falls = staircase({0.3, 1.0}, {0, 0}, {-2 * g, 0});
+  const EffectUse push = force_law([](const dynamics::At& at) { return 10 * positive(at.t - 0.1); });
+  for (Specimen block : {sliding(0.2, {wall(0.0), push}), slender(0.2, {wall(0.0), push})}) {
+    block.effects.push_back(effect("vertical_shaking", {1}));
+    const Path held = run(GetParam(), block, {&falls}, 2);
+    EXPECT_EQ(held.response.outcome, Outcome::moved);
+    EXPECT_NEAR(held.response.peak_slip_m, 0, 1e-12);
+    EXPECT_NEAR(held.response.peak_rotation_rad, 0, 1e-12);
+    EXPECT_TRUE(std::ranges::any_of(
+        held.points, [](const HistoryPoint& at) { return at.mode == Mode::flight && at.time_s > 0.15; }));
+  }
+}
+
 // Blows are told, with the speed at which the block comes.
 TEST_P(Wall, TellsItsBlows) {
   const double v = 0.45;
