@@ -31,12 +31,6 @@ if(FREESTAND_SANITIZE)
   add_compile_options(-fsanitize=${FREESTAND_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${FREESTAND_SANITIZE})
 endif()
-# -fanalyzer (preset analyzer) goes through every path; where it does not end it is left out, and every other warning stays.
-function(freestand_not_analyzed)
-  if(CMAKE_CXX_FLAGS MATCHES "-fanalyzer")
-    set_property(SOURCE ${ARGN} APPEND PROPERTY COMPILE_OPTIONS -fno-analyzer)
-  endif()
-endfunction()
 # Once its heap has 128 MB g++ collects its garbage again and again, for a tenth of its time; at a gigabyte is soon enough.
 add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=1048576>)
 find_program(FREESTAND_CCACHE ccache)
