@@ -3,7 +3,7 @@
 //   FAULT_FOLDER   only files below it count
 //   FAULT_NAME     only calls of this name count: write, rename, ...; all where it is not there
 //   FAULT_CALL     which of the calls, from 1
-//   FAULT_KIND     enospc, eio, eintr: the call fails with that error; short: a write does half; renamed: a rename is done
+//   FAULT_KIND     enospc, edquot, erofs, eio, eintr: the call fails with that error; short: a write does half; renamed: a rename is done
 //                  and tells ENOENT, as one that a network file system has sent twice; killed: the process dies
 //                  before the call; torn: it dies when half of a write is done; lost: it dies before the call, and with it the
 //                  machine: of what was not synced each write, new name and rename is kept, gone or spoilt (unsynced.hpp);
@@ -27,12 +27,13 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <iterator>
 
 #include "unsynced.hpp"
 
 namespace {
 
-enum class Kind { none, enospc, eio, eintr, short_write, renamed, killed, torn, lost, listed };
+enum class Kind { none, enospc, edquot, erofs, eio, eintr, short_write, renamed, killed, torn, lost, listed };
 
 const char* setting(const char* name) {
   const char* text = std::getenv(name);
@@ -42,8 +43,8 @@ const char* setting(const char* name) {
 Kind kind_in_environment() {
   const char* rank = std::getenv("FAULT_RANK");
   if (rank && std::strcmp(rank, setting("OMPI_COMM_WORLD_RANK")) != 0) return Kind::none;
-  const char* names[] = {"none", "enospc", "eio", "eintr", "short", "renamed", "killed", "torn", "lost", "listed"};
-  for (int i = 1; i < 10; ++i)
+  constexpr const char* names[] = {"none", "enospc", "edquot", "erofs", "eio", "eintr", "short", "renamed", "killed", "torn", "lost", "listed"};
+  for (std::size_t i = 1; i < std::size(names); ++i)
     if (std::strcmp(setting("FAULT_KIND"), names[i]) == 0) return static_cast<Kind>(i);
   return Kind::none;
 }
@@ -106,10 +107,24 @@ Kind fault(const char* name, Where where) {
 
 // Does the call fail by its error alone? Interrupted are only calls that may be.
 bool fails_at_once(Kind kind, bool may_be_interrupted) {
-  if (kind == Kind::enospc) errno = ENOSPC;
-  if (kind == Kind::eio) errno = EIO;
-  if (kind == Kind::eintr) errno = EINTR;
-  return kind == Kind::enospc || kind == Kind::eio || (kind == Kind::eintr && may_be_interrupted);
+  const auto with = [](int error) {
+    errno = error;
+    return true;
+  };
+  switch (kind) {
+    case Kind::enospc:
+      return with(ENOSPC);
+    case Kind::edquot:
+      return with(EDQUOT);
+    case Kind::erofs:
+      return with(EROFS);
+    case Kind::eio:
+      return with(EIO);
+    case Kind::eintr:
+      return may_be_interrupted && with(EINTR);
+    default:
+      return false;
+  }
 }
 
 template <class Call>

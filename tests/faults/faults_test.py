@@ -27,11 +27,13 @@ LEFT = ["bins.csv", "fragility.h5", "freestand.files", "ranking.csv", "samples.h
 NOTES = ["freestand.lock", "freestand.begun", "blocks"]  # where one cannot be removed, all is done, and the next run removes it
 # What may come of it. A call that did a part, or tells an error though it is done, is no reason to end; one that was
 # interrupted only within a library, and then going on helps; MPI's files do not tell which error it was.
-ALLOWED = {"enospc": {0, CURE}, "eio": {0, CURE}, "eintr": {0, RESUMABLE}, "short": {0}, "renamed": {0}, "killed": None, "torn": None, "lost": None}
-LASTING = ("enospc", "eio")
+ALLOWED = {"enospc": {0, CURE}, "edquot": {0, CURE}, "erofs": {0, CURE}, "eio": {0, CURE}, "eintr": {0, RESUMABLE}, "short": {0}, "renamed": {0},
+           "killed": None, "torn": None, "lost": None}
+LASTING = ("enospc", "edquot", "erofs", "eio")
 KINDS = [(kind, False) for kind in ALLOWED] + [(kind, True) for kind in LASTING]
 WRITES = ("write", "pwrite", "writev", "pwritev")
-ONLY = {"short": WRITES, "torn": WRITES, "renamed": ("rename",), "eintr": WRITES + ("open", "fsync", "ftruncate")}  # others do what they do anyway
+ONLY = {"edquot": ("write", "pwrite"), "erofs": ("open", "rename"), "short": WRITES, "torn": WRITES, "renamed": ("rename",),
+        "eintr": WRITES + ("open", "fsync", "ftruncate")}  # others do what they do anyway
 
 
 def small_study(keep):
@@ -162,7 +164,10 @@ class Faults:
                     print(wrong, flush=True)
         shutil.rmtree(self.folder)
         print(f"{self.ranks} ranks, keep {self.keep}: {sum(counts.values())} faults, {len(faults)} answered wrongly:", dict(counts), flush=True)
-        return not faults
+        unseen = [kind for kind, _ in KINDS if counts[kind] == 0] if self.share or not counts else []
+        if unseen:
+            print(f"not one {', '.join(unseen)} was reached", flush=True)
+        return not faults and not unseen
 
 
 if __name__ == "__main__":
