@@ -16,8 +16,6 @@
 namespace freestand::test::plane_packs_test {
 namespace {
 
-constexpr const char* instruction_sets[] = {"v2", "v3", "v4", "own"};
-
 struct Samples {
   std::vector<FloorMotion> motions;
   std::vector<Specimen> specimens;

@@ -199,7 +199,8 @@ TEST(MixturesInBlocks, HaveTheBitsOfSingleSamplesWithAnyInstructionSet) {
     expected += one_by_one_by_side(specimen.effects);
     alone.push_back(respond(specimen, samples.shakings.back(), settings));
   }
-  for (const char* name : {"v2", "v3", "v4"}) {
+  int compared = 0;
+  for (const char* name : instruction_sets) {
     const Isa isa(name);
     if (!isa.there()) {
       std::printf("%s is not here\n", name);
@@ -210,7 +211,9 @@ TEST(MixturesInBlocks, HaveTheBitsOfSingleSamplesWithAnyInstructionSet) {
     EXPECT_EQ(one_by_one, expected) << name;
     for (std::size_t i = 0; i < count; ++i)
       EXPECT_TRUE(same_bits(block[i], alone[i])) << name << ' ' << i << ' ' << samples.cases[i].text();
+    ++compared;
   }
+  EXPECT_TRUE(compared > 0 || !dynamics::batch_kernels());
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ TEST(PulsesInBlocks, HaveTheBitsOfSingleSamplesWithAnyInstructionSet) {
     std::printf("%td of %zu moved, %td overturned\n", moved, count, fell);
     EXPECT_GT(moved, 2000);
     EXPECT_GT(fell, 200);
-    for (const char* name : {"v2", "v3", "v4"}) {
+    int compared = 0;
+    for (const char* name : instruction_sets) {
       const Isa isa(name);
       if (!isa.there()) {
         std::printf("%s is not here\n", name);
@@ -120,7 +121,9 @@ TEST(PulsesInBlocks, HaveTheBitsOfSingleSamplesWithAnyInstructionSet) {
           << name;
       for (std::size_t i = 0; i < count; ++i)
         EXPECT_TRUE(same_bits_of_responses(block[i], alone[i])) << name << ", sample " << samples.text(i);
+      ++compared;
     }
+    EXPECT_TRUE(compared > 0 || !dynamics::batch_kernels());
   }
 }
 

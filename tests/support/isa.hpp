@@ -8,6 +8,9 @@
 
 namespace freestand::test {
 
+// All that there may be; a build for one machine alone has its own.
+inline constexpr const char* instruction_sets[] = {"v2", "v3", "v4", "own"};
+
 class Isa {
  public:
   explicit Isa(const char* name) : name_(name) { setenv("FREESTAND_ISA", name, 1); }
