@@ -42,8 +42,9 @@ struct Place {
   const AxisSurface* axis;  // null: of the surface over IM and capacity
   std::size_t bin, cell, capacity;
   std::int64_t n;
-  double probability, half;     // of its own band; NaN: no band
-  double at_once = 1;           // the half width that counts, in half widths of its own band
+  double probability;
+  double half, longer;          // half of its own band, and its longer side; NaN: no band
+  double at_once = 1;           // the half width that counts, in halves of its own band
   double half_width = 0.5;      // wanted of that one,
   double by_itself = infinite;  // and of its own band
 
@@ -57,12 +58,14 @@ struct Place {
 void visit_places(const Result& result, const Wanted& wanted, const std::function<void(const Place&)>& each,
                   const std::function<void()>& rare) {
   const auto half = [](double lower, double upper) { return (upper - lower) / 2; };
+  const auto longer = [](double lower, double p, double upper) { return std::max(upper - p, p - lower); };
   for (const EdpResult& edp : result.edps) {
     const std::size_t capacities = edp.capacity.size();
     for (std::size_t i = 0; i < edp.surface.probability.size(); ++i)
       if (const std::size_t bin = i / capacities; edp.bins[bin].n > 0)
         each({&edp, nullptr, bin, 0, i % capacities, edp.bins[bin].n, edp.surface.probability[i],
-              half(edp.surface.lower[i], edp.surface.upper[i])});
+              half(edp.surface.lower[i], edp.surface.upper[i]),
+              longer(edp.surface.lower[i], edp.surface.probability[i], edp.surface.upper[i])});
     for (const AxisSurface& axis : edp.axes)
       for (std::size_t cell = 0; cell < axis.n.size(); ++cell) {
         const auto n = static_cast<double>(axis.n[cell]);
@@ -74,7 +77,7 @@ void visit_places(const Result& result, const Wanted& wanted, const std::functio
         for (std::size_t c = 0; c < capacities; ++c) {
           const std::size_t i = cell * capacities + c;
           each({&edp, &axis, cell / axis.centre.size(), cell % axis.centre.size(), c, axis.n[cell], axis.probability[i],
-                half(axis.lower[i], axis.upper[i])});
+                half(axis.lower[i], axis.upper[i]), longer(axis.lower[i], axis.probability[i], axis.upper[i])});
         }
       }
   }
@@ -114,7 +117,7 @@ void for_each_place(const Result& result, const Wanted& wanted, const std::funct
           const double freedom = degrees_of_freedom(result, place);
           const auto [found, is_new] = times.try_emplace(freedom);
           if (is_new) found->second = times_at_once(result.confidence, points, freedom);
-          place.at_once = found->second;
+          place.at_once = found->second * (place.half > 0 ? place.longer / place.half : 1);
         }
         each(place);
       },

@@ -137,15 +137,16 @@ TEST(KnownAtOnce, HoldsOfFewRecords) {
   }
 }
 
-// The other figures of half_width.hpp, where long tests are asked for: what half the width of bands that reach further to one side misses.
-TEST(KnownAtOnce, HoldsNearlyWhereBandsReachFurtherToOneSide) {
+// The other figures of half_width.hpp, where long tests are asked for. With half the width of the bands in place of their longer side it is 0.95,
+// 0.93, 0.94, 0.95, 0.88.
+TEST(KnownAtOnce, HoldsWhereBandsReachFurtherToOneSide) {
   if (!test::long_tests()) GTEST_SKIP() << "only with FREESTAND_LONG_TESTS";
   const int repeats = 5 * test::repeats_asked(200);
-  const std::pair<Setting, double> settings[] = {{{0, 300, 0, false}, 0.95},
-                                                 {{10, 60, 0.3, false}, 0.93},
-                                                 {{40, 60, 0.3, false}, 0.94},
-                                                 {{0, 2000, 0, false, 2, 0.02, 0.01}, 0.95},
-                                                 {{0, 300, 0, false, 2, 0.02, 0.01}, 0.88}};
+  const std::pair<Setting, double> settings[] = {{{0, 300, 0, false}, 0.97},
+                                                 {{10, 60, 0.3, false}, 0.95},
+                                                 {{40, 60, 0.3, false}, 0.95},
+                                                 {{0, 2000, 0, false, 2, 0.02, 0.01}, 0.97},
+                                                 {{0, 300, 0, false, 2, 0.02, 0.01}, 0.98}};
   for (const auto& [setting, share] : settings)
     EXPECT_NEAR(simulate(setting, repeats).at_once, share, 3 * test::error_of_share(share, repeats) + 0.005);
 }
