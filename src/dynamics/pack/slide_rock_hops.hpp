@@ -61,7 +61,7 @@ class SlideRockHops : public SlideRockLane {
     hops_ = false;
     const bool small = r.ended[i] > 0, many = r.hops[i] >= hops_at_once;
     if (small && ends_hops(side_, omega_)) {
-      if (m_ >= last_) hopping_ = row_lasts(side_, magnitude(omega_));
+      if (m_ >= last_) hops_end_ = now() + row_lasts(side_, magnitude(omega_));
       return stand(Mode::rest, 0);
     }
     if (many && dies_out()) return stand(Mode::rest, 0);
@@ -89,7 +89,7 @@ class SlideRockHops : public SlideRockLane {
     RowOfHops row{span, square, magnitude(a_), 0, bounds_.slow, 1};
     if (!unnoticed(row)) return false;
     if (m_ < last_ && !(quiet_row(row) && unnoticed(row))) return false;
-    if (m_ >= last_) hopping_ = row_lasts(side_, omega);
+    if (m_ >= last_) hops_end_ = now() + row_lasts(side_, omega);
     const double both = on(-1).kept * on(1).kept, size = hop(side_, omega);
     if (both > 0 && size > c_.rest_rotation)  // in a steady field
       events_ += static_cast<int>(std::ceil(log_outside(c_.rest_rotation / size) / log_outside(both)));

@@ -357,8 +357,8 @@ class SlideRockLane {
   double fraction_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now
   double theta_ = 0, omega_ = 0, rx_ = 0, ry_ = 0, xi_ = 0, w_ = 0;
   double peak_slip_ = 0, peak_rotation_ = 0, force2_ = 0, path_ = 0, end_ = 0;
-  double room_ = 0;     // peak slip less s xi, when it entered a pack
-  double hopping_ = 0;  // time that the hops take that were not gone through
+  double room_ = 0;      // peak slip less s xi, when it entered a pack
+  double hops_end_ = 0;  // of the last row of hops that was not gone through, on the still floor [s]
   mutable const double* entry_ = nullptr;
   int events_ = 0, impacts_ = 0;
   bool hops_ = false;        // small hops lie ahead

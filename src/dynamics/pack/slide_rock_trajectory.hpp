@@ -62,7 +62,7 @@ class SlideRockTrajectory : public SlideRockHops {
       feel_rest(t_.knots);
     }
     ended_ = true;
-    end_ = m_ < last_ ? h_ * last_ : now() + hopping_;
+    end_ = m_ < last_ ? h_ * last_ : larger(now(), hops_end_);
   }
   // First knot from j on that may end the rest; `least`: of the unit record, at gravity's lowest.
   int next_loud(int j, double least) const {
@@ -221,16 +221,16 @@ class SlideRockTrajectory : public SlideRockHops {
       if (two_hops(row)) feel_end_of_row(slip, lasts_in_all(omega_, row), two_hops);
     } else {
       const double after = slip_after_stops(row, two_hops);
-      if (m_ >= last_) hopping_ = row.lasts;
+      if (m_ >= last_) hops_end_ = now() + row.lasts;
       if (after != 0) leave_row(after, row.lasts);
     }
     choose_flat();
   }
-  // now: how long the row would last on the floor as it is.
+  // steady: how long the row would last on the floor as it is.
   template <class TwoHops>
-  void feel_end_of_row(double slip, double now, TwoHops&& two_hops) {
-    if (m_ >= last_ || !(now > 0)) {
-      hopping_ = now;
+  void feel_end_of_row(double slip, double steady, TwoHops&& two_hops) {
+    if (m_ >= last_ || !(steady > 0)) {
+      hops_end_ = now() + steady;
       return;
     }
     const Field here = field();
@@ -241,7 +241,8 @@ class SlideRockTrajectory : public SlideRockHops {
       HopRow later{omega_, slip, felt};
       return two_hops(later) ? lasts_in_all(omega_, later) : std::numeric_limits<double>::infinity();
     };
-    const double lasts = lasts_on_changing_floor(now, left, [&](double time) { return two_hops_later(time, false); });
+    const double lasts =
+        lasts_on_changing_floor(steady, left, [&](double time) { return two_hops_later(time, false); });
     if (lasts < left) two_hops_later(lasts, true);
     a_ = here.a;
     g_ = here.g;
