@@ -23,6 +23,7 @@ class Bin {
   Bin(const Tally& tally, std::size_t edp, std::size_t bin)
       : options_(tally.options()),
         edp_(options_.edps[edp]),
+        bin_(bin),
         histogram_(tally.histogram(edp, bin)),
         records_(static_cast<std::size_t>(tally.groups().record_groups())),
         by_group_(sums_by_group(tally, edp, bin)),
@@ -37,7 +38,7 @@ class Bin {
     if (fit_.n < options_.minimum_samples) return fit_;
     fit_.status = BinStatus::counts_only;
     if (edp_.binary || fit_.n_moved < options_.minimum_samples) return fit_;
-    const BinLine line = line_of(total_, fit_.im_mean);
+    const BinLine line = line_of(total_, im_of_line(options_, bin_, fit_.im_mean));
     const ThresholdFit found = fit_on(total_, line, edp_.still_threshold),
                        tested = fit_on(total_, pilot_, edp_.still_threshold);
     // A law that cannot be held against the samples is none.
@@ -117,6 +118,7 @@ class Bin {
 
   const Options& options_;
   const EdpOptions& edp_;
+  std::size_t bin_;
   std::span<const std::int64_t> histogram_;
   std::size_t records_;
   Eigen::MatrixXd by_group_;

@@ -31,6 +31,8 @@ Eigen::MatrixXd sums_by_group(const Tally& tally, std::size_t edp, std::size_t b
   return table;
 }
 
+double im_of_line(const Options& options, std::size_t bin, double mean) { return options.im_edge[bin] < 0 ? 0 : mean; }
+
 BinLine line_of(const BinSums& s, double im) {
   if (s.without_ln_im > 0 || s.moved < 3 || !(im > 0)) return {};
   const double spread = s.ln_im2 - s.ln_im * s.ln_im / s.moved;

@@ -31,6 +31,10 @@ struct BinLine {
 // or where some did at an IM that is not above 0.
 BinLine line_of(const BinSums& sums, double im);
 
+// The IM about which that line goes, where the bin's samples stand at `mean` on the average. 0 in a bin that reaches below 0, and so no line:
+// its samples without a ln IM stand still, and shares of still and moved ones are then those of the whole bin, not of one IM.
+double im_of_line(const Options& options, std::size_t bin, double mean);
+
 // Of ln EDP less the line, over the moved samples.
 GroupMoments moments(const BinSums& sums, const BinLine& line);
 ThresholdFit fit_on(const BinSums& sums, const BinLine& line, double still_threshold);

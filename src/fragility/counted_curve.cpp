@@ -81,7 +81,9 @@ double CountedCurve::where(const CountedBin& bin, double shown) const {
 }
 
 double CountedCurve::lognormal(double im) const {
-  return im > 0 && shape_.median > 0 && shape_.dispersion > 0 ? normal_cdf(std::log(im / shape_.median) / shape_.dispersion) : 0;
+  return im > 0 && shape_.median > 0 && shape_.dispersion > 0
+             ? normal_cdf(std::log(im / shape_.median) / shape_.dispersion)
+             : 0;
 }
 
 double CountedCurve::fitted(double im) const {

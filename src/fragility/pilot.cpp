@@ -22,9 +22,9 @@ Options with_pilot(const Tally& first) {
     for (std::size_t b = 0; b < bins; ++b) {
       const BinSums sums(sums_by_group(first, e, b).colwise().sum());
       const bool enough = sums.moved >= options.minimum_samples;
-      const double slope = enough ? line_of(sums, options.pilot_im[b]).slope : everywhere;
-      // A bin that reaches to 0 or below has no ln IM.
-      if (std::isfinite(slope) && options.im_edge[b] > 0) options.pilot_slope[e][b] = slope;
+      const double im = im_of_line(options, b, options.pilot_im[b]);
+      const double slope = enough ? line_of(sums, im).slope : everywhere;
+      if (std::isfinite(slope) && im > 0) options.pilot_slope[e][b] = slope;
     }
   }
   return options;

@@ -105,7 +105,9 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
                           left_out = resampling.totals_left_out(groups);
     const bool has_fit = bin.status != BinStatus::counts_only;
     const bool use_fit = bin.status == BinStatus::fitted || (has_fit && !options.empirical_fallback);
-    const Parts parts = has_fit ? resampled_parts(totals, bin.im_mean, options.edps[edp].still_threshold) : Parts{};
+    const Parts parts =
+        has_fit ? resampled_parts(totals, im_of_line(options, b, bin.im_mean), options.edps[edp].still_threshold)
+                : Parts{};
     if (has_fit && bin.motions > 1) {
       bin.lambda_se = standard_deviation(parts.lambda);
       bin.omega_se = standard_deviation(parts.omega);

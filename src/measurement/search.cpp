@@ -8,6 +8,8 @@
 #include <cmath>
 #include <memory>
 
+#include "measurement/predict/model.hpp"
+
 namespace freestand::measurement {
 namespace {
 

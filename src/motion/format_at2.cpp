@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <freestand/error.hpp>
 
 #include "motion/component.hpp"
 #include "motion/record.hpp"

@@ -106,6 +106,11 @@ const char* calibration_method(const Bench& bench) {
            "mean over 25 fits to draws of the others with replacement; intervals of 95 % hold the fits "
            "to 200 draws of the tests with replacement, and all points that are worse by no more than "
            "chance";
+  if (measurement::kind_of_set(bench) == measurement::Kind::peaks)
+    return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and "
+           "Mead descends (GSL nmsimplex2), and once more from the best of those; the mean of "
+           "ln(model/measured)^2 of the calibration tests' peaks is made least; intervals of 95 % are those of joint "
+           "draws: Student's density of the misfit, as wide as the disagreement of the tests makes it";
   return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and "
          "Mead descends (GSL nmsimplex2), and once more from the best of those; the mean of "
          "ln(error^2) of the calibration tests is made least; histories end in Levenberg and "

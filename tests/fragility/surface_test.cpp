@@ -207,9 +207,33 @@ TEST(Surface, OmegaDoesNotGrowWithTheWidthOfABin) {
   EXPECT_GT(bin.ks_p_estimated, 0.01);
   EXPECT_EQ(bin.status, BinStatus::fitted);
   EXPECT_LT(fit(tally_of(o, 5000)).edps[0].bins[0].ks_p_estimated, 0.01);  // without the pilot's line it is skew
+  // From 0 on every sample has a ln IM.
   Options from_zero = o;
   from_zero.im_edge = {0, 1};
-  EXPECT_EQ(with_pilot(tally_of(from_zero, 500)).pilot_slope[0][0], 0);
+  EXPECT_EQ(with_pilot(tally_of(from_zero, 500)).pilot_slope[0][0], piloted.pilot_slope[0][0]);
+  EXPECT_EQ(fit(tally_of(with_pilot(tally_of(from_zero, 500)), 5000)).edps[0].bins[0].ks_statistic, bin.ks_statistic);
+}
+
+// A bin that reaches below 0, where all stand still: what is used is what is tested, and is near to what is counted.
+TEST(Surface, OfABinThatReachesBelowZeroIsThatOfTheWholeBin) {
+  Options o = options(0, false);
+  o.im_edge = {-0.5, 1};
+  const auto tally_of = [](const Options& with, std::uint64_t samples) {
+    Tally tally(with);
+    for (std::uint64_t i = 0; i < samples; ++i) {
+      const double im = -0.5 + 1.5 * test::uniform(i, 60);
+      const double value = im > 0 ? im * std::exp(1.5 * test::normal(i, 61)) : 0;
+      tally.add({i, im, 0, im > 0 ? Outcome::moved : Outcome::at_rest, {&value, 1}, {}});
+    }
+    return tally;
+  };
+  const Options piloted = with_pilot(tally_of(o, 500));
+  EXPECT_EQ(piloted.pilot_slope[0][0], 0);
+  const EdpResult edp = fit(tally_of(piloted, 20000)).edps[0];
+  ASSERT_EQ(edp.bins[0].status, BinStatus::fitted);
+  EXPECT_EQ(edp.bins[0].slope, 0);
+  for (std::size_t c = 0; c < edp.capacity.size(); ++c)
+    EXPECT_NEAR(edp.surface.probability[c], edp.surface.empirical[c], edp.bins[0].off_by + 0.001) << c;
 }
 
 // One sample in 37 has a tenth of the spread: the best lognormal is off by 0.01, which 10^6 samples see and nobody minds.

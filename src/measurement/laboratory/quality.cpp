@@ -8,6 +8,7 @@
 #include "measurement/data/resolution.hpp"
 #include "measurement/laboratory/laboratory.hpp"
 #include "measurement/laboratory/plausible.hpp"
+#include "measurement/laboratory/plausible_offsets.hpp"
 #include "measurement/laboratory/timing.hpp"
 #include "measurement/laboratory/units.hpp"
 #include "measurement/levels.hpp"

@@ -185,6 +185,7 @@ double least_motion(const Bench& bench, Channel channel) {
     greatest = std::max(greatest, std::abs(peak.value_or(0)));
   };
   for (const std::size_t i : tests_of(bench.data(), Role::calibration)) {
+    if (fell(bench.test(i))) continue;  // its peaks may hold the fall
     const Peaks& p = bench.test(i).peaks;
     if (channel == Channel::slip)
       see(p.peak_slip_m), see(p.residual_slip_m);

@@ -262,15 +262,17 @@ class Findings {
         "stand",
         missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
     const auto [chance, sd] = expected_brier(errors);
+    const double spread = std::sqrt(chance * n);
+    const bool other_count = std::abs(expected - static_cast<double>(overturned)) > 2 * spread;
     say("the Brier score of the {} tests is {:.4f}; were the model's probabilities right, chance alone would make "
         "{:.4f} "
         "+- {:.4f}: {}",
         whose, brier, chance, sd,
         surer_than_it_may_be(errors) ? "the model is surer than it may be, something is missing"
         : brier < chance - 2 * sd    ? "the model is less sure than it might be"
+        : other_count                ? "chance explains that score, but not how many overturned"
                                      : "chance explains what is missed");
-    const double spread = std::sqrt(chance * n);
-    if (std::abs(expected - static_cast<double>(overturned)) > 2 * spread)
+    if (other_count)
       say("{} of the {} tests overturned where the model expects {:.0f} +- {:.0f}: it is too {}", overturned, whose,
           expected, spread, expected > static_cast<double>(overturned) ? "unstable" : "stable");
     if (!sure.empty())

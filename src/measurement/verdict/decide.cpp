@@ -178,7 +178,7 @@ class Decision : Comparison {
   void nothing_helps(const Candidate* best) {
     if (enough(d_.base)) {
       d_.verdict = Verdict::none;
-      const bool gains = histories_ && help() && !help()->chance();
+      const bool gains = help() && !help()->chance();
       say((best ? fmt::format("{}, {}{}, changes the left-out error from {} to {}{})",
                               gains ? "no effect is needed (the one that gains most, and more than chance"
                                     : "no effect beats the base by more than chance (the best",

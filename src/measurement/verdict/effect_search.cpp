@@ -69,7 +69,7 @@ void EffectSearch::finish(std::size_t first) {
   std::vector<ModelFit*> gaining, rest;
   for (std::size_t i = first; i < out_.candidates.size(); ++i) {
     Candidate& c = out_.candidates[i];
-    if (c.visible) (c.fit.score < out_.base.fit.score - no_gain ? gaining : rest).push_back(&c.fit);
+    if (c.visible) (gains(c.fit.score, out_.base.fit.score) ? gaining : rest).push_back(&c.fit);
   }
   std::stable_sort(gaining.begin(), gaining.end(),
                    [](const ModelFit* a, const ModelFit* b) { return a->score < b->score; });
@@ -242,11 +242,11 @@ bool EffectSearch::fit_again_by_strides(const std::vector<FitTask>& tasks, std::
 
 std::optional<std::size_t> EffectSearch::improved(ModelFit& fit) {
   const std::vector<std::string> effects = effects_of(fit, base_);
-  if (fit.score > out_.base.fit.score - no_gain) return {};
+  if (!gains(fit.score, out_.base.fit.score)) return {};
   for (std::size_t i = 0; i < out_.candidates.size(); ++i) {
     Candidate& known = out_.candidates[i];
     if (!std::is_permutation(known.effects.begin(), known.effects.end(), effects.begin(), effects.end())) continue;
-    if (fit.score > known.fit.score - no_gain) return {};
+    if (!gains(fit.score, known.fit.score)) return {};
     known.effects = effects;
     known.fit = std::move(fit);
     return i;

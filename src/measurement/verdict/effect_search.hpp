@@ -1,6 +1,7 @@
 // What every search for effects does with its candidates: who can be seen, fits to the end, judgement.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <tuple>
 
@@ -10,8 +11,6 @@
 namespace freestand::measurement {
 
 using Catalogue = std::vector<const dynamics::Effect*>;
-
-inline constexpr double no_gain = 0.02;  // of the mean score: less is not worth a fit with tests left out
 
 class EffectSearch {
  public:
@@ -26,6 +25,12 @@ class EffectSearch {
 
  protected:
   Effort quick() const;
+  // Is that mean score better by as much as is worth a fit with tests left out? By a hundredth of the error: scores of histories are logarithms
+  // of its square, those of peaks are squares, of which nobody reads one to better than a hundredth.
+  bool gains(double score, double than) const {
+    constexpr double share = 0.02, read = 0.01;
+    return score <= than - (kind_of_set(bench_) == Kind::peaks ? std::fmax(share * than, read * read) : share);
+  }
   void leave_out(std::vector<ModelFit*> fits);
   ModelSpec narrowed(const ModelFit& fit) const;
   // What a model that is joined to this one knows of it without each fold.

@@ -155,7 +155,7 @@ bool PairSearch::fit_parts_of_best_pair() {
   auto fits = fit_models(bench_, tasks, options_.effort, jobs_);
   std::vector<ModelFit*> better;
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    if (fits[i].score > singles[i]->fit.score - no_gain) continue;
+    if (!gains(fits[i].score, singles[i]->fit.score)) continue;
     singles[i]->fit = std::move(fits[i]);
     better.push_back(&singles[i]->fit);
   }
