@@ -20,6 +20,10 @@ struct Free {
   std::vector<double> landmarks = {};  // values that the measurements themselves point to
 };
 
+// Free numbers <-> the unit cube between low and high, in which fits move; logarithmic ones by their logarithm.
+double to_unit(const Free&, double x);
+double from_unit(const Free&, double z);  // kept within [lower, upper]
+
 using Values = std::vector<double>;
 using Objective = std::function<double(std::span<const double> x)>;
 

@@ -138,15 +138,4 @@ bool goes_with(const ModelSpec& model, const dynamics::Effect& effect) {
   });
 }
 
-double to_unit(const Free& free, double x) {
-  if (free.logarithmic) return std::log(std::max(x, 1e-300) / free.low) / std::log(free.high / free.low);
-  return (x - free.low) / (free.high - free.low);
-}
-
-double from_unit(const Free& free, double z) {
-  const double x =
-      free.logarithmic ? free.low * std::pow(free.high / free.low, z) : free.low + z * (free.high - free.low);
-  return std::clamp(x, free.lower, free.upper);
-}
-
 }  // namespace freestand::measurement

@@ -86,8 +86,4 @@ std::size_t fitted_numbers(const dynamics::Effect&);
 // excluded by one.
 bool goes_with(const ModelSpec&, const dynamics::Effect&);
 
-// Free numbers <-> the unit cube between low and high, in which fits move; logarithmic ones by their logarithm.
-double to_unit(const Free&, double x);
-double from_unit(const Free&, double z);  // kept within [lower, upper]
-
 }  // namespace freestand::measurement
