@@ -13,6 +13,7 @@
 
 #include "base/durable_file.hpp"
 #include "base/open_file.hpp"
+#include "parallel/progress.hpp"
 #include "parallel/run_files.hpp"
 
 namespace freestand::parallel {
@@ -141,6 +142,9 @@ std::vector<std::int64_t> BlockLog::begin(const Communicator& world) {
   std::vector<std::int64_t> blocks;
   for (std::size_t i = 0; i < places_.size(); ++i)
     if (!damaged[i]) whole.push_back(places_[i]), blocks.push_back(places_[i].block);
+  if (const std::size_t lost = places_.size() - whole.size(); lost > 0 && world.is_root())
+    tell(fmt::format("{} of {} finished blocks in {} cannot be used (torn or damaged): computed again\n", lost,
+                     places_.size(), folder_.string()));
   places_ = std::move(whole);
   return blocks;
 }

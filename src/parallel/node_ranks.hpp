@@ -1,9 +1,8 @@
 // The ranks that share a node with this one.
 #pragma once
 
-#include <mpi.h>
-
 #include "parallel/communicator.hpp"
+#include "parallel/mpi.hpp"
 
 namespace freestand::parallel {
 

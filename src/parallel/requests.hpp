@@ -1,13 +1,12 @@
 // Waiting for MPI without holding the core. Only for the sources of this folder.
 #pragma once
 
-#define OMPI_SKIP_MPICXX 1  // the C++ bindings of old
-#include <mpi.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <thread>
+
+#include "parallel/mpi.hpp"
 
 namespace freestand::parallel {
 

@@ -18,6 +18,7 @@
 #include "io/own_files.hpp"
 #include "io/samples_file.hpp"
 #include "io/written_files.hpp"
+#include "parallel/finished_blocks.hpp"
 #include "parallel/step_display.hpp"
 #include "parallel/stop.hpp"
 #include "study/catalogue_rows.hpp"
@@ -159,7 +160,10 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
                        "go on with the same command", {.writes = {study_path("").string()}});
   SweepSummary summary;
   if (work == refit)
-    world.on_root([&] { write_study(entry.study, folder); });
+    world.on_root([&] {
+      parallel::remove_finished_blocks(blocks_path(folder));  // the end of its sweep was interrupted
+      write_study(entry.study, folder);
+    });
   else
     summary = sweep(world, entry.study, {.quiet = quiet, .command = options.command, .doubts_told = &doubts_told},
                     run_folder);

@@ -20,8 +20,9 @@ namespace {
 
 constexpr double word_bytes = 8, number_bytes = 8;  // of a count, and of the number of a sample
 constexpr double words_of_a_sum = 4;
-// A tally, its words as they travel, and those that have arrived.
-constexpr double copies = 3;
+// A tally, its words as they travel, those that have arrived, and what lies in the logs of counts: measured, of a sweep with 82 MB of counts
+// in one, 7.5 on the root and 5.4 on other ranks.
+constexpr double copies = 8;
 
 double bytes_of(ColumnKind kind) {
   switch (kind) {

@@ -136,9 +136,13 @@ class Catalogue(InFolder):
         self.build(FRIDGE)
         samples = self.folder / "db" / "entries" / "fridge" / "samples.h5"
         before = samples.stat().st_mtime_ns
+        left = samples.parent / "blocks"  # by a sweep whose end was interrupted
+        left.mkdir()
+        (left / "run-0001.node-000000.log").write_bytes(b"")
         text = (HEAD + FRIDGE).replace("[0.05, 0.2]", "[0.05, 0.1, 0.2]")
         self.assertIn("0 computed, 1 fitted again", self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "db"]).stdout)
         self.assertEqual(samples.stat().st_mtime_ns, before)
+        self.assertFalse(left.exists())
         self.assertEqual(sorted({row["capacity"] for row in self.rows("fragility.csv") if row["demand"] == "peak_slip_m"}), ["0.05", "0.1", "0.2"])
 
     def test_more_intensities_need_no_new_samples(self):

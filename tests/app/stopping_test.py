@@ -200,7 +200,8 @@ class OneFolder(Stopping):
         log.write_bytes(whole[:200] + b"?" + whole[201:-1])  # the first block's values, and the last one's end
         unreadable = log.with_name("run-0002.node-000000.log")
         unreadable.symlink_to(unreadable.name)  # to itself: not even root reads it
-        self.succeed(["sweep", study, "-o", folder, "--resume", "--quiet"], 2)
+        told = self.succeed(["sweep", study, "-o", folder, "--resume", "--quiet"], 2).stderr
+        self.assertRegex(told, r"1 of \d+ finished blocks in .*blocks cannot be used \(torn or damaged\): computed again")
         self.assertEqual(datasets(folder / "samples.h5"), datasets(self.folder / "whole" / "samples.h5"))
 
 
