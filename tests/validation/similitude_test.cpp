@@ -163,6 +163,7 @@ TEST_P(Similitude, ThirdScaleGivesTheSameAnswerToTheTolerance) {
     const Pair pair = random_pair(GetParam(), number, third_scale);
     const Answers both = solve(respond, pair, third_scale, {.tolerance = 1e-12});
     const double off = difference(both.large, both.small, pair.length());
+    ASSERT_FALSE(std::isnan(off)) << number;
     if (!(off < 1e-7) && sensitive(pair, both.large, off)) {
       ++chaotic;
       continue;
