@@ -116,6 +116,9 @@ class Group : public Object {
 
   // A dataset of one dimension that is written in pieces of so many rows, packed (packed.hpp).
   Dataset make_in_pieces(const std::string& name, Type type, std::uint64_t rows, std::uint64_t piece);
+
+  // A dimension whose places have no values of their own, as netCDF-4 has it: a scale of this name that takes no room.
+  Dataset make_dimension(const std::string& name, std::uint64_t length);
   Dataset open_dataset(const std::string& name) const;
 
   // A dataset with its values.

@@ -116,6 +116,13 @@ Dataset Group::make_in_pieces(const std::string& name, Type type, std::uint64_t 
   return make_dataset(name, type, {rows}, rows > 0 ? piece : 0);
 }
 
+// The name is that by which readers of netCDF-4 know such a dimension (dim_without_variable of its library).
+Dataset Group::make_dimension(const std::string& name, std::uint64_t length) {
+  Dataset dimension = make_dataset(name, Type::flag, {length}, 0);
+  dimension.scale(fmt::format("This is a netCDF dimension but not a netCDF variable.{:10}", length));
+  return dimension;
+}
+
 Dataset Group::open_dataset(const std::string& name) const {
   expect_no_link(id(), name, *file_);
   Handle dataset =

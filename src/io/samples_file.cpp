@@ -102,22 +102,20 @@ void lay_out(h5::Group& group, const MotionRows& motions) {
       .describe("m/s2", "pseudo-spectral acceleration at scale 1, 5 % damping; of pulses with a period of 1 s");
 }
 
-// Datasets of the columns, that of the samples' numbers at the end.
+// Datasets of the columns.
 std::vector<h5::Dataset> lay_out(const h5::File& file, const SamplesHeader& header, std::int64_t samples_rows) {
   const auto rows = static_cast<std::uint64_t>(samples_rows), piece = std::min<std::uint64_t>(rows, piece_rows);
   std::vector<h5::Dataset> datasets;
   h5::Group root = file.root();
   write_provenance(root, samples_format, header.provenance);
   h5::Group samples = root.make_group("samples");
-  h5::Dataset scale = samples.make_in_pieces("sample", h5::Type::integer64, rows, piece);
-  scale.scale("sample").describe("", "number of the sample");
+  const h5::Dataset scale = samples.make_dimension("sample", rows);
   for (const Column& column : header.columns) {
     h5::Dataset dataset = samples.make_in_pieces(column.name, type_of(column.kind), rows, piece);
     dataset.attach(0, scale).describe(column.unit, column.description);
     if (column.name == "outcome") describe_outcome(dataset);
     datasets.push_back(std::move(dataset));
   }
-  datasets.push_back(std::move(scale));
   h5::Group motions = root.make_group("motions");
   lay_out(motions, header.motions);
   return datasets;
@@ -167,8 +165,8 @@ std::string packed_piece(std::vector<T> values, std::int64_t piece) {
   return packed(std::as_bytes(std::span(values)), sizeof(T));
 }
 
-// Of rows first ... of one piece each column's values, packed, those of their numbers at the end.
-std::vector<std::string> pieces_of(const std::vector<double>& rows, std::int64_t first, std::int64_t piece,
+// Of the rows of one piece each column's values, packed.
+std::vector<std::string> pieces_of(const std::vector<double>& rows, std::int64_t piece,
                                    const std::vector<Column>& columns) {
   std::vector<std::string> pieces;
   std::vector<double> values(rows.size() / columns.size());
@@ -180,9 +178,6 @@ std::vector<std::string> pieces_of(const std::vector<double>& rows, std::int64_t
     if (columns[c].kind == ColumnKind::flag)
       pieces.push_back(packed_piece(whole_numbers<std::uint8_t>(values, columns[c]), piece));
   }
-  std::vector<std::int64_t> numbers(values.size());
-  std::iota(numbers.begin(), numbers.end(), first);
-  pieces.push_back(packed_piece(numbers, piece));
   return pieces;
 }
 
@@ -258,7 +253,7 @@ void write_samples(const parallel::Communicator& world, const std::filesystem::p
     parallel::Words mine;
     const std::int64_t begin = first + world.rank() * slab, end = std::min(layout.samples, begin + slab);
     for (std::int64_t at = begin; world.rank() < packing && at < end; at += piece)
-      for (const std::string& one : pieces_of(rows(at, std::min(at + piece, end)), at, piece, header.columns))
+      for (const std::string& one : pieces_of(rows(at, std::min(at + piece, end)), piece, header.columns))
         append(mine, one);
     const std::vector<parallel::Words> all = world.gather(mine);
     world.on_root([&] {
@@ -281,15 +276,16 @@ SampleReader::SampleReader(const std::filesystem::path& path, Closing closing)
   const h5::Group root = file_->root();
   provenance_ = read_provenance(root, samples_format);
   const h5::Group samples = root.open_group("samples");
-  const std::size_t rows = samples.open_dataset("sample").rows();
-  rows_ = static_cast<std::int64_t>(rows);
   for (const std::string& name : samples.names()) {
+    if (name == "sample") continue;
     const h5::Dataset dataset = samples.open_dataset(name);
-    if (dataset.rows() != rows)
-      throw Error(fmt::format("{} cannot be used (its column {} has {} rows, and {} samples): run the sweep again",
-                              path.string(), name, dataset.rows(), rows),
+    const auto rows = static_cast<std::int64_t>(dataset.rows());
+    if (columns_.empty()) rows_ = rows;
+    if (rows != rows_)
+      throw Error(fmt::format("{} cannot be used (its column {} has {} rows, and {} has {}): run the sweep again",
+                              path.string(), name, rows, columns_.front().name, rows_),
                   Exit::data);
-    if (name != "sample") columns_.push_back(column_of(name, dataset));
+    columns_.push_back(column_of(name, dataset));
   }
   motions_ = read_motions(root.open_group("motions"));
 }

@@ -89,18 +89,46 @@ BlockLog::BlockLog(fs::path folder, std::string fingerprint, std::uint32_t kerne
 
 fs::path BlockLog::log(std::int64_t run, std::int64_t node) const { return run_file(folder_, run, node, "log"); }
 
-void BlockLog::find() {
-  places_.clear();
+void BlockLog::look(const Communicator& world) {
+  Words logs;  // run and node of each: all ranks share what the root sees
+  if (world.is_root())
+    for (const RunFile& log : run_files(folder_, "log")) logs.insert(logs.end(), {log.run, log.node});
+  logs = world.broadcast(std::move(logs));
   run_ = 0;
-  for (const RunFile& log : run_files(folder_, "log")) {
-    run_ = std::max(run_, log.run);
-    find_in(log.path, log.run, log.node);
+  places_.clear();
+  Words mine{-1};  // a log of another study or kernel, then all places
+  for (std::size_t i = 0; 2 * i < logs.size(); ++i) {
+    const RunFile file{logs[2 * i], logs[2 * i + 1], log(logs[2 * i], logs[2 * i + 1])};
+    run_ = std::max(run_, file.run);
+    if (static_cast<int>(i % static_cast<std::size_t>(world.size())) != world.rank()) continue;
+    try {
+      look_into(file);
+    } catch (const Error&) {
+      mine[0] = static_cast<std::int64_t>(i);
+    }
+  }
+  for (const Place& place : std::exchange(places_, {}))
+    mine.insert(mine.end(), {place.block, place.run, place.node, place.offset});
+  other_.reset();
+  for (const Words& one : world.gather(mine)) {
+    if (one[0] >= 0) {
+      const auto log_of_other = static_cast<std::size_t>(2 * one[0]);
+      other_ = {logs[log_of_other], logs[log_of_other + 1], log(logs[log_of_other], logs[log_of_other + 1])};
+    }
+    for (std::size_t i = 1; i < one.size(); i += 4) places_.push_back({one[i], one[i + 1], one[i + 2], one[i + 3]});
   }
   keep_latest();
+  looked_ = true;
 }
 
-void BlockLog::find_in(const fs::path& path, std::int64_t run, std::int64_t node) {
-  for_each_header(path, [&](const Header& header, std::int64_t offset) {
+void BlockLog::find() {
+  if (!looked_) look(Communicator());
+  looked_ = false;
+  if (other_) look_into(*other_);
+}
+
+void BlockLog::look_into(const RunFile& log) {
+  for_each_header(log.path, [&](const Header& header, std::int64_t offset) {
     if (const std::string other = text_of(header.fingerprint); other != fingerprint_)
       throw OtherBlocks(
           fmt::format("{} holds samples of another study (its fingerprint is {}, this study's is {}): resume with "
@@ -113,7 +141,7 @@ void BlockLog::find_in(const fs::path& path, std::int64_t run, std::int64_t node
                       "this one's is {:08x}): resume with the program it was started with, or start again with "
                       "--overwrite",
                       folder_.string(), header.kernel, kernel_));
-    places_.push_back({header.block, run, node, offset});
+    places_.push_back({header.block, log.run, log.node, offset});
   });
 }
 
@@ -218,6 +246,12 @@ std::int64_t count_blocks(const fs::path& folder) {
   for (const RunFile& log : run_files(folder, "log"))
     for_each_header(log.path, [&](const Header&, std::int64_t) { ++count; });
   return count;
+}
+
+std::int64_t bytes_of_logs(const fs::path& folder) {
+  std::int64_t bytes = 0;
+  for (const RunFile& log : run_files(folder, "log")) bytes += OpenFile(log.path, O_RDONLY).size();
+  return bytes;
 }
 
 }  // namespace freestand::parallel

@@ -18,6 +18,7 @@
 
 #include "parallel/communicator.hpp"
 #include "parallel/node_memory.hpp"
+#include "parallel/run_files.hpp"
 
 namespace freestand::parallel {
 
@@ -45,8 +46,11 @@ class BlockLog {
   // 64 characters. kernel: of what in the program does. Throws Error if the folder cannot be made or the fingerprint is too long or empty.
   BlockLog(std::filesystem::path folder, std::string fingerprint, std::uint32_t kernel = 0);
 
-  // Looks where blocks lie; on the root. A block of another study (OtherBlocks) or kernel is an Error (Exit::usage):
-  // resuming would mix the two.
+  // Looks where blocks lie, each rank in its part of the logs. Collective.
+  void look(const Communicator&);
+
+  // Takes what was seen for this study's, on the root, which looks alone where not all have looked. A block of another study
+  // (OtherBlocks) or kernel is an Error (Exit::usage): resuming would mix the two.
   void find();
 
   // Begins the log of this run, behind what the root has found, and gives the blocks that are whole, ascending. All ranks
@@ -71,7 +75,7 @@ class BlockLog {
     friend auto operator<=>(const Place&, const Place&) = default;
   };
   std::filesystem::path log(std::int64_t run, std::int64_t node) const;
-  void find_in(const std::filesystem::path& path, std::int64_t run, std::int64_t node);
+  void look_into(const RunFile&);
   bool is_whole(const Place&) const;
   void keep_latest();
 
@@ -79,12 +83,15 @@ class BlockLog {
   std::string fingerprint_;
   std::uint32_t kernel_;
   std::int64_t run_ = 0;
-  std::vector<Place> places_;       // one a block, ascending
-  std::vector<Place> written_;      // by this rank, not yet shared
-  std::optional<NodeMemory> end_;   // of this node's log, alone in it
+  std::vector<Place> places_;  // one a block, ascending
+  bool looked_ = false;
+  std::optional<RunFile> other_;   // a log that holds blocks of another study or kernel
+  std::vector<Place> written_;     // by this rank, not yet shared
+  std::optional<NodeMemory> end_;  // of this node's log, alone in it
 };
 
-// How many blocks lie in the logs of a folder, of whatever study.
+// How many blocks lie in the logs of a folder, of whatever study, and how long the logs are [B], which takes no reading.
 std::int64_t count_blocks(const std::filesystem::path& folder);
+std::int64_t bytes_of_logs(const std::filesystem::path& folder);
 
 }  // namespace freestand::parallel

@@ -4,8 +4,13 @@
 #include <array>
 #include <chrono>
 #include <exception>
+#include <functional>
+#include <optional>
+#include <span>
+#include <thread>
 #include <utility>
 
+#include "parallel/node_memory.hpp"
 #include "parallel/requests.hpp"
 #include "parallel/stop.hpp"
 
@@ -76,6 +81,57 @@ class SharedCounters {
   std::array<std::int64_t, slots> local_{};
 };
 
+// What this node has taken and none of its ranks has begun: a range that they share, and the one after it. Who takes one of the last blocks of a
+// range asks for the next, so that an answer that takes its time keeps one rank of the node waiting, not all of them.
+class NodeBlocks {
+ public:
+  // Collective.
+  explicit NodeBlocks(const Communicator& world) : memory_(world, numbers) {
+    Words nodes{memory_.node() == world.rank()};
+    world.sum_in_place(nodes);
+    takers_ = {nodes[0], world.size()};
+  }
+
+  const Takers& takers() const { return takers_; }
+
+  // The next one; none where `take`, which asks for a range, gives none any more. `wait`: for another rank that asks.
+  std::optional<std::int64_t> next(const std::function<BlockRange()>& take, const std::function<void()>& wait) {
+    for (;;) {
+      std::optional<std::int64_t> block;
+      bool asks = false, over = false;
+      {
+        const NodeMemory::Lock lock(memory_);
+        const std::span<std::int64_t> held = memory_.numbers();
+        if (held[first] == held[end]) {
+          held[first] = std::exchange(held[next_first], 0);
+          held[end] = std::exchange(held[next_end], 0);
+        }
+        if (held[first] < held[end]) block = held[first]++;
+        over = held[no_more];
+        asks = held[next_first] == held[next_end] && !held[asking] && !over &&
+               (!block || takers_.asks_ahead(held[end] - held[first]));
+        if (asks) held[asking] = 1;
+      }
+      if (asks) {
+        const BlockRange taken = take();
+        const NodeMemory::Lock lock(memory_);
+        const std::span<std::int64_t> held = memory_.numbers();
+        held[next_first] = taken.first;
+        held[next_end] = taken.end;
+        held[no_more] = taken.empty();
+        held[asking] = 0;
+      }
+      if (block || over) return block;
+      if (!asks) wait();
+    }
+  }
+
+ private:
+  enum Number : std::size_t { first, end, next_first, next_end, asking, no_more, numbers };
+  NodeMemory memory_;
+  Takers takers_;
+};
+
 }  // namespace
 
 std::int64_t samples_to_beat(std::int64_t samples, double seconds, std::int64_t most) {
@@ -85,14 +141,19 @@ std::int64_t samples_to_beat(std::int64_t samples, double seconds, std::int64_t 
                                                     : std::clamp(static_cast<std::int64_t>(beat_s / each), least, most);
 }
 
-BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, std::int64_t ranks) {
-  std::int64_t first = 0;
-  for (; first < total; ticket -= ranks) {
-    const std::int64_t size =
-        std::max<std::int64_t>(1, std::min((total - first) / (2 * ranks), ranks / asks_in_a_block));
-    if (ticket < ranks || size == 1)
+std::int64_t Takers::most() const { return std::max((ranks + nodes - 1) / nodes, ranks / asks_in_a_block); }
+
+bool Takers::asks_ahead(std::int64_t left) const { return left < ranks / nodes / 2; }
+
+BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, const Takers& takers) {
+  const std::int64_t most = takers.most(), round = takers.nodes * most;
+  const std::int64_t whole_rounds = total < 2 * round ? 0 : total / round - 1;  // each of `most` blocks a node
+  std::int64_t first = std::min(ticket / takers.nodes, whole_rounds) * round;
+  for (ticket -= first / most; first < total; ticket -= takers.nodes) {
+    const std::int64_t size = std::max<std::int64_t>(1, std::min((total - first) / (2 * takers.nodes), most));
+    if (ticket < takers.nodes || size == 1)
       return {std::min(first + ticket * size, total), std::min(first + (ticket + 1) * size, total)};
-    first += ranks * size;
+    first += takers.nodes * size;
   }
   return {total, total};
 }
@@ -101,6 +162,7 @@ bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& 
                     Progress* progress) {
   const auto total = static_cast<std::int64_t>(todo.size());
   SharedCounters counters(world);
+  NodeBlocks node(world);
   auto last = Clock::now();
   const auto look = [&] {
     counters.serve();
@@ -119,11 +181,17 @@ bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& 
     told = Clock::now();
   };
   Words done{0};
-  BlockRange mine;
+  const auto take = [&] {
+    return blocks_of_ticket(counters.fetch_add(SharedCounters::tickets, 1), total, node.takers());
+  };
+  const auto wait_for_others = [&] {
+    if (world.is_root()) look();
+    std::this_thread::sleep_for(std::chrono::microseconds(20));
+  };
   while (!stop_requested()) {
-    if (mine.empty()) mine = blocks_of_ticket(counters.fetch_add(SharedCounters::tickets, 1), total, world.size());
-    if (mine.empty()) break;
-    const Counts counts = compute(todo[static_cast<std::size_t>(mine.first++)], beat);
+    const std::optional<std::int64_t> next = node.next(take, wait_for_others);
+    if (!next) break;
+    const Counts counts = compute(todo[static_cast<std::size_t>(*next)], beat);
     told_later.samples += counts.samples;
     told_later.overturned += counts.overturned;
     told_later.failed += counts.failed;

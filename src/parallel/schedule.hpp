@@ -1,9 +1,10 @@
-// Handing out blocks of samples to ranks.
+// Handing out blocks of samples to ranks, on two levels: nodes take ranges of blocks from a counter of all, their ranks share
+// what their node has taken.
 //
-// The counter of blocks handed out lies in a window of rank 0 and is raised by MPI_Fetch_and_op. On one node the window
-// is shared memory: a rank takes blocks without rank 0 taking part. Between nodes without remote atomics, rank 0
-// serves the others each time it calls the beat; so blocks call it between samples. Many ranks take many blocks at a time while
-// many are left, and single ones at the end, so that 10^4 ranks ask for a million blocks a hundred thousand times.
+// The counter lies in a window of rank 0 and is raised by MPI_Fetch_and_op; what a node has taken lies in its memory. On one node the
+// window is shared memory: a rank takes blocks without rank 0 taking part. Between nodes without remote atomics, rank 0
+// serves the others each time it calls the beat; so blocks call it between samples. 10^4 ranks on a hundred nodes ask for a million
+// blocks ten thousand times.
 #pragma once
 
 #include <cstdint>
@@ -28,15 +29,26 @@ std::int64_t samples_to_beat(std::int64_t samples, double seconds, std::int64_t 
 // Computes one block and stores it. What it counted goes into the progress report.
 using BlockFunction = std::function<Counts(std::int64_t block, const Beat& beat)>;
 
-// Which of `total` blocks are taken at the ticket-th raise of the counter; none beyond the last. In rounds: in each every rank takes an
+// Who takes blocks: nodes, and the ranks on all of them.
+struct Takers {
+  std::int64_t nodes = 1, ranks = 1;
+
+  // So many blocks a node takes at most at a time: one for each of its ranks, or more where the counter would be asked too often.
+  std::int64_t most() const;
+
+  // Does a node ask for its next range when so many blocks are left of the last one? When fewer than half of its ranks will find one: a rank
+  // alone would wait for the answer anyway.
+  bool asks_ahead(std::int64_t left) const;
+};
+
+// Which of `total` blocks a node takes at the ticket-th raise of the counter; none beyond the last. In rounds: in each every node takes an
 // equal part of half of what is left, in the last ones single blocks (factoring: S. F. Hummel, E. Schonberg and L. E. Flynn,
-// Communications of the ACM 35, 1992); but no more than keeps the counter from being asked too often, which with fewer than 128
-// ranks is one: blocks may take much longer than others, and ranks too.
+// Communications of the ACM 35, 1992); but no more than Takers::most(), since blocks may take much longer than others, and nodes too.
 struct BlockRange {
   std::int64_t first = 0, end = 0;
   bool empty() const { return first >= end; }
 };
-BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, std::int64_t ranks);
+BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, const Takers&);
 
 // Calls compute(block, beat) once for each block of `todo` (the same list on every rank), each on one rank, whichever
 // is free, about in the order of the list (with one rank, just so). Returns true when all blocks are done; false when a stop was requested on any rank

@@ -145,6 +145,8 @@ Checkpoint::Checkpoint(const parallel::Communicator& world, const Study& study, 
   counted_ = std::make_unique<Counted>(Counted{std::move(counts), std::move(sums)});
 }
 
+void Checkpoint::look() { log_.look(world_); }
+
 void Checkpoint::find() {
   log_.find();
   if (counted_) counted_->sums.find();

@@ -32,7 +32,10 @@ class Checkpoint {
   Checkpoint(const parallel::Communicator&, const Study&, const Target&, const Evaluator&,
              const std::filesystem::path& folder);
 
-  // Looks for what earlier runs have finished; on the root. Throws Error (Exit::usage): blocks of another study
+  // Looks where rows lie that earlier runs have finished. Collective.
+  void look();
+
+  // Takes what earlier runs have finished for this study's; on the root. Throws Error (Exit::usage): blocks of another study
   // (parallel::OtherBlocks) or program.
   void find();
 

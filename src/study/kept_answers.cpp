@@ -26,6 +26,7 @@ std::string fingerprint_of_answers(const std::string& content) {
 KeptAnswers::KeptAnswers(const parallel::Communicator& world, const std::filesystem::path& folder,
                          const std::string& fingerprint)
     : log_(folder, fingerprint) {
+  log_.look(world);
   world.on_root([&] { log_.find(); });
   found_ = log_.begin(world);
 }

@@ -26,14 +26,14 @@ namespace fs = std::filesystem;
 // the root, which speaks for all, goes first.
 constexpr double patience_of_root_s = 7, patience_of_others_s = 8;
 
-// What is finished, as a number that is another one when there is more, and 0 where there is nothing: by the blocks, and by when samples.h5 was
-// written (less than 0 for the clock of some libraries).
+// What is finished, as a number that is another one when there is more, and 0 where there is nothing: by how long the logs of blocks are, what is
+// counted, and when samples.h5 was written (less than 0 for the clock of some libraries).
 std::int64_t finished_in(const fs::path& folder) {
   std::error_code error;
   std::int64_t finished = 0;
   if (fs::exists(samples_path(folder), error))
     finished = fs::last_write_time(samples_path(folder), error).time_since_epoch().count();
-  return finished + parallel::count_finished_blocks(blocks_path(folder));
+  return finished + parallel::bytes_of_logs(blocks_path(folder)) + parallel::count_summed_blocks(blocks_path(folder));
 }
 
 fs::path note_path(const fs::path& folder) { return folder / io::begun_name; }

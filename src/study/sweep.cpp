@@ -144,6 +144,7 @@ class Sweep {
   }
 
   void take_stock() {
+    checkpoint_->look();
     world_.on_root([&] {
       find_blocks();
       if (earlier_.rows() == 0) write_study();  // else it is of the samples that are there, until all are

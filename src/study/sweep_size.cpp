@@ -18,7 +18,7 @@
 namespace freestand::study {
 namespace {
 
-constexpr double word_bytes = 8, number_bytes = 8;  // of a count, and of the number of a sample
+constexpr double word_bytes = 8;  // of a count
 constexpr double words_of_a_sum = 4;
 // A tally, its words as they travel, those that have arrived, and what lies in the logs of counts: measured, of a sweep with 82 MB of counts
 // in one, 7.5 on the root and 5.4 on other ranks.
@@ -49,7 +49,7 @@ SweepSize size_of(const Study& study, const Target& target, const Evaluator& eva
   SweepSize size;
   size.samples = static_cast<std::int64_t>(study.samples);
   size.kept = kept_samples(study, size.samples);
-  double row = number_bytes;
+  double row = 0;
   for (const Column& column : evaluator.columns()) row += bytes_of(column.kind);
   size.samples_bytes = row * static_cast<double>(size.kept);
   size.blocks_bytes = 8.0 * static_cast<double>(evaluator.columns().size()) * static_cast<double>(size.kept);

@@ -96,7 +96,7 @@ class Keep(InFolder):
         self.assertEqual(tables(out), tables(whole))
 
     def test_killed_and_stopped_it_goes_on_to_the_same_bits_and_with_nothing_else(self):
-        study = self.study("none", samples=80000)
+        study = self.study("none", samples=240000)
         whole = self.folder / "whole"
         self.succeed(["run", study, "-o", whole, "--quiet"], 2)
         out, kept = self.folder / "out", []
@@ -124,9 +124,9 @@ class Keep(InFolder):
         self.succeed(["run", study, "-o", out, "--resume", "--quiet"], 3)
         self.assertEqual(tables(out), tables(whole))
         computed = json.loads((out / "summary.json").read_text())["timing"]["samples_computed"]
-        self.assertEqual(computed, 80000 - 64 * kept[1])
-        more = self.study("none", samples=90000)
-        self.fail_with(2, ["run", more, "-o", out, "--resume"], "counts of 80000 samples", "none can be added")
+        self.assertEqual(computed, 240000 - 64 * kept[1])
+        more = self.study("none", samples=250000)
+        self.fail_with(2, ["run", more, "-o", out, "--resume"], "counts of 240000 samples", "none can be added")
 
     def test_check_tells_how_large_it_is(self):
         factor = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9}

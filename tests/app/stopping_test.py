@@ -116,7 +116,7 @@ class Signals(Stopping):
     def test_what_keeps_nothing_ends_at_once(self):
         """Fits of a set, which are begun anew: no result, no word but that."""
         process = self.start(["compare", CONFIGS / "walkthrough" / "cabinet.yaml", "-o", self.folder / "compared", "--quiet"])
-        time.sleep(0.5)
+        time.sleep(0.2)
         code, seconds = self.stop(process, signal.SIGTERM)
         self.assertEqual(code, 75, self.error)
         self.assertLess(seconds, 5)

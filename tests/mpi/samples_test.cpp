@@ -40,6 +40,35 @@ fs::path folder() {
   return path;
 }
 
+// Each rank reads a part of the logs; where one is of another study, all know.
+TEST(Samples, LogsOfManyRunsAreFoundByAllRanksTogether) {
+  const fs::path path = folder() / "logs";
+  world().on_root([&] {
+    for (std::int64_t run = 0; run < 7; ++run) {
+      parallel::BlockLog one(path, "small");
+      one.look({});
+      one.begin({});
+      for (std::int64_t block = 10 * run; block < 10 * run + 12; ++block)  // two of them again in the next run
+        one.write(block, {1, {static_cast<double>(run)}});
+    }
+  });
+  const auto looked = [&](const std::string& fingerprint) {
+    parallel::BlockLog next(path, fingerprint);
+    next.look(world());
+    world().on_root([&] { next.find(); });
+    return next;
+  };
+  parallel::BlockLog next = looked("small");
+  std::vector<std::int64_t> all(72);
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(next.begin(world()), all);
+  EXPECT_EQ(next.read(10).values, std::vector<double>{1});
+  EXPECT_EQ(next.read(71).values, std::vector<double>{6});
+  EXPECT_THROW(looked("other"), Error);
+  world().barrier();
+  world().on_root([&] { parallel::remove_finished_blocks(path); });
+}
+
 // The way of a sweep: blocks by whoever is free, each into the log of its node, then all into samples.h5.
 TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
   const fs::path path = folder();
@@ -54,6 +83,7 @@ TEST(Samples, FromBlocksToTheFileTheBitsAreKept) {
   }));
   store.share(world());
   parallel::BlockLog next(path / "blocks", "small");  // what another run finds
+  next.look(world());
   world().on_root([&] { next.find(); });
   EXPECT_EQ(next.begin(world()), todo);
   EXPECT_EQ(std::distance(fs::directory_iterator(path / "blocks"), {}), 1);

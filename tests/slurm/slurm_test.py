@@ -108,14 +108,32 @@ class Slurm(InFolder):
         self.assertEqual(result(self.out), result(whole))
         self.assertEqual(datasets(self.out / "tally.h5"), datasets(whole / "tally.h5"))
 
-    def test_a_catalogue(self):
-        entries = HEAD + "".join(f"  - {{id: box-{i}, class: box, block: {{width_m: 0.{i}, height_m: 2}}, friction: {{mu: 0.3}}}}\n" for i in (5, 6))
-        catalogue = self.folder / "catalogue.yaml"
-        catalogue.write_text(entries)
+    def test_a_wide_job_short_ones_and_a_catalogue_give_the_same_database(self):
+        """One study as a job of its own, in an array whose first job is stopped, and as an entry of a catalogue; and under mpirun."""
+        box = "block: {width_m: 0.5, height_m: 2}, friction: {mu: 0.3}"
+        head = HEAD.replace("samples: 600", "samples: 40000")
+        catalogue, study = self.folder / "catalogue.yaml", self.folder / "study.yaml"
+        catalogue.write_text(head + f"  - {{id: box, class: box, {box}}}\n  - {{id: wide, class: box, {box.replace('0.5', '0.8')}}}\n")
+        study.write_text(head.split("\n", 1)[1].replace("entries:\n", box.replace(", friction", "\nfriction") + "\n"))
+        self.submit(study)
+        self.ends("COMPLETED", 0)
+        wide, self.out = self.out, self.folder / "short"
+        self.submit(study, "--array=1-2%1", "--open-mode=append")
+        self.wait_until(lambda: self.blocks() > 0, "blocks")
+        self.cluster.run("scancel", "--signal=TERM", f"{self.job}_1")
+        self.wait_for_slurm(self.nothing_is_queued, "the end of the array")
+        self.assertIn("the next job of the array goes on", self.log.read_text())
+        short, self.out = self.out, self.folder / "database"
         self.submit(catalogue, verb=["catalogue"])
         self.ends("COMPLETED", 0)
-        self.succeed(["catalogue", catalogue, "-o", self.folder / "here"], 3)
-        self.assertEqual((self.out / "fragility.csv").read_text(), (self.folder / "here/fragility.csv").read_text())
+        whole, here = self.folder / "whole", self.folder / "here"
+        self.succeed(["run", study, "-o", whole, "--quiet"], 3)
+        self.succeed(["catalogue", catalogue, "-o", here], 3)
+        for one in (wide, short):
+            self.assertEqual(result(one), result(whole))
+        for database in (self.out, here):
+            self.assertEqual(datasets(database / "entries/box/samples.h5"), datasets(whole / "samples.h5"))
+            self.assertEqual((database / "fragility.csv").read_text(), (here / "fragility.csv").read_text())
 
     @unittest.skipUnless("FREESTAND_LONG_TESTS" in os.environ, "a minute more: FREESTAND_LONG_TESTS")
     def test_a_diagnosis_that_was_stopped_goes_on(self):
