@@ -234,8 +234,11 @@ ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
     evaluate(bench, {&fit}, jobs);
     fit.intervals = known_intervals(p);
     // Outcomes are predicted by the mean over all numbers that the tests leave open, whoever fitted them.
-    if (outcomes_only(p.data) && !fit.x.empty() && !tests_of(p.data, Role::calibration).empty())
-      fit.resampled = fit_outcomes(bench, p.model, known, {}, jobs).resampled;
+    if (outcomes_only(p.data) && !fit.x.empty() && !tests_of(p.data, Role::calibration).empty()) {
+      ModelFit open = fit_outcomes(bench, p.model, known, {}, jobs);
+      fit.resampled = std::move(open.resampled);
+      fit.misfit = open.misfit;
+    }
     return fit;
   }
   if (tests_of(p.data, Role::calibration).empty())
@@ -263,7 +266,10 @@ void average_over_draws(const Bench& bench, const ModelSpec& model, const Poster
   });
   for (std::size_t t = 0; t < outcomes.size(); ++t) {
     double mean = 0;
-    for (const Values& answer : answers) mean += answer[t] / static_cast<double>(count);
+    for (const Values& answer : answers) {
+      mean += answer[t] / static_cast<double>(count);
+      tests[outcomes[t]].by_draw.push_back(answer[t]);
+    }
     tests[outcomes[t]].error = outcome_error(bench.test(outcomes[t]), std::clamp(mean, 0.0, 1.0));
   }
 }

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/jobs.hpp"
+#include "measurement/fit/outcome_misfit.hpp"
 #include "measurement/predict/score.hpp"
 #include "measurement/search.hpp"
 
@@ -40,6 +42,7 @@ struct ModelFit {
   std::vector<TestError> left_out = {};     // of each calibration test, with the fit that did not see it
   std::vector<Interval> intervals = {};     // 95 %, of each free number: jackknife over the folds, Student's t
   std::vector<Values> resampled = {};       // outcomes: of fits to tests drawn with replacement
+  std::optional<OutcomeMisfit> misfit = {};  // outcomes: of the fit that `resampled` came from
 
   double mean_left_out() const;
 };

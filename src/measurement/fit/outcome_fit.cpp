@@ -313,7 +313,14 @@ bool outcomes_only(const Dataset& data) {
 
 ModelFit fit_outcomes(const Bench& bench, const ModelSpec& model, const Values& start, const OutcomeEffort& effort,
                       const Jobs& jobs) {
-  return tabulate_outcomes(bench, model, start, effort, jobs).fit;
+  TabulatedFit found = tabulate_outcomes(bench, model, start, effort, jobs);
+  const Values m = jobs("whether the model is enough", 1, [&](std::size_t) {
+                     const OutcomeMisfit of = outcome_misfit(bench, found);
+                     return Values{of.p,           of.of_score, of.of_count, of.reached,      of.score, of.usual_score,
+                                   of.score_scatter, of.fell,     of.expected, of.count_scatter};
+                   }).front();
+  found.fit.misfit = {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9]};
+  return std::move(found.fit);
 }
 
 TabulatedFit tabulate_outcomes(const Bench& bench, const ModelSpec& model, const Values& start,

@@ -21,7 +21,7 @@ struct OutcomeEffort {
 // Do all calibration tests say no more than whether the specimen overturned?
 bool outcomes_only(const Dataset&);
 
-// The model fitted to the calibration tests, complete: errors, folds, intervals. start: a point to begin with; may be
+// The model fitted to the calibration tests, complete: errors, folds, intervals, misfit. start: a point to begin with; may be
 // empty.
 ModelFit fit_outcomes(const Bench&, const ModelSpec&, const Values& start, const OutcomeEffort&, const Jobs&);
 
@@ -31,6 +31,12 @@ struct TabulatedFit {
   OutcomeTable table;
 };
 TabulatedFit tabulate_outcomes(const Bench&, const ModelSpec&, const Values& start, const OutcomeEffort&, const Jobs&);
+
+// What happened to the tests of the table in the first column, 1 where one fell; behind it sets drawn from the fit's probabilities.
+Eigen::MatrixXf outcome_sets(const Bench&, const TabulatedFit&, std::uint64_t stream, std::size_t sets);
+
+// Is it enough? Each set is fitted again by the rows of the table.
+OutcomeMisfit outcome_misfit(const Bench&, const TabulatedFit&);
 
 // Models with one more effect each, from their coarse tables on (outcome_screen.hpp). `without`: fitted.
 std::vector<TabulatedFit> tabulate_outcomes(const Bench&, const ModelFit& without,

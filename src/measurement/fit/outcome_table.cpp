@@ -12,11 +12,6 @@
 namespace freestand::measurement {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXf;
-using Eigen::VectorXf;
-
-constexpr Eigen::Index rows_at_once = 32;                 // so that products of rows and sets stay small
 constexpr std::size_t part = 64;                          // tests a job
 constexpr double middle_step = 0.03, scatter_step = 0.2;  // in the logarithm
 constexpr int polish_budget = 40;
@@ -324,65 +319,6 @@ std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std:
     widen(i, first, last, {first ? 0 : below[further - 1], last ? 0 : above[further - 1]});
   }
   return range;
-}
-
-Index TableSearch::rows_from(Index first) const {
-  return std::clamp<Index>(static_cast<Index>(rows_.size()) - first, 0, rows_at_once);
-}
-
-MatrixXf TableSearch::squares(Index first, const MatrixXf& outcomes, const std::vector<Index>& tests) const {
-  using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Rows> all(probability_.data() + first * outcomes.rows(), rows_from(first), outcomes.rows());
-  const MatrixXf p = all(Eigen::all, tests), y = outcomes(tests, Eigen::all);
-  MatrixXf square = -2 * p * y;
-  square.colwise() += p.rowwise().squaredNorm();
-  square.rowwise() += y.colwise().sum();
-  return square;
-}
-
-VectorXf TableSearch::least_squares(const MatrixXf& outcomes) const {
-  std::vector<Index> tests(static_cast<std::size_t>(outcomes.rows()));
-  std::iota(tests.begin(), tests.end(), 0);
-  VectorXf least = VectorXf::Constant(outcomes.cols(), std::numeric_limits<float>::infinity());
-  for (Index first = 0; rows_from(first) > 0; first += rows_at_once)
-    least = least.cwiseMin(squares(first, outcomes, tests).colwise().minCoeff().transpose());
-  return least;
-}
-
-// The least of all but a fold is sought in what all tests make, less what the fold does.
-VectorXf TableSearch::left_out_squares(const MatrixXf& outcomes) const {
-  const Index sets = outcomes.cols();
-  std::vector<Index> all(static_cast<std::size_t>(outcomes.rows()));
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<std::vector<Index>> folds;
-  for (const auto fold = fold_of(all.size()); const Index t : all) {
-    const std::size_t f = fold[static_cast<std::size_t>(t)];
-    folds.resize(std::max(folds.size(), f + 1));
-    folds[f].push_back(t);
-  }
-  const auto count = static_cast<Index>(folds.size());
-  MatrixXf least = MatrixXf::Constant(count, sets, std::numeric_limits<float>::infinity());
-  Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> row = decltype(row)::Zero(count, sets);
-  for (Index first = 0; rows_from(first) > 0; first += rows_at_once) {
-    const MatrixXf whole = squares(first, outcomes, all);
-    for (Index f = 0; f < count; ++f) {
-      const MatrixXf others = whole - squares(first, outcomes, folds[static_cast<std::size_t>(f)]);
-      const Eigen::RowVectorXf lowest = others.colwise().minCoeff();
-      for (Index s = 0; s < sets; ++s) {
-        if (lowest[s] >= least(f, s)) continue;
-        least(f, s) = others.col(s).minCoeff(&row(f, s));
-        row(f, s) += first;
-      }
-    }
-  }
-  VectorXf sum = VectorXf::Zero(sets);
-  for (Index f = 0; f < count; ++f)
-    for (Index s = 0; s < sets; ++s)
-      for (const Index t : folds[static_cast<std::size_t>(f)]) {
-        const float p = probability_[static_cast<std::size_t>(row(f, s) * outcomes.rows() + t)];
-        sum[s] += (p - outcomes(t, s)) * (p - outcomes(t, s));
-      }
-  return sum;
 }
 
 std::vector<double> TableSearch::scores() const {

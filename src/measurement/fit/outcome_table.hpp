@@ -64,6 +64,11 @@ class TableSearch {
   // by the rows that are least in the others.
   Eigen::VectorXf least_squares(const Eigen::MatrixXf& outcomes) const;
   Eigen::VectorXf left_out_squares(const Eigen::MatrixXf& outcomes) const;
+  // The same rows of least squares, and how many tests they expect to overturn.
+  struct SetFits {
+    Eigen::VectorXf squares, expected;
+  };
+  SetFits fits_to(const Eigen::MatrixXf& outcomes) const;
   // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
   std::vector<double> scores() const;
   // Of each number, from all points whose scores are worse than those of the fit by no more than chance: by their paired
