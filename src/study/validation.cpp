@@ -103,9 +103,8 @@ const char* calibration_method(const Bench& bench) {
     return "outcomes are computed for many placements of the specimen at points of a Sobol sequence that"
            " close in on the best; over these points, and over middle and scatter of the placements, "
            "Brier's score of the calibration tests is made least; tests left out are predicted by the "
-           "mean over 25 fits to draws of the others with replacement; intervals of 95 % hold the fits "
-           "to 200 draws of the tests with replacement, and all points that are worse by no more than "
-           "chance";
+           "mean over 25 fits to draws of the others with replacement; intervals of 95 % are those of joint "
+           "draws: the likelihood of the outcomes, as wide as the disagreement of the tests makes it";
   if (measurement::kind_of_set(bench) == measurement::Kind::peaks)
     return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and "
            "Mead descends (GSL nmsimplex2), and once more from the best of those; the mean of "
@@ -236,7 +235,7 @@ ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
     // Outcomes are predicted by the mean over all numbers that the tests leave open, whoever fitted them.
     if (outcomes_only(p.data) && !fit.x.empty() && !tests_of(p.data, Role::calibration).empty()) {
       ModelFit open = fit_outcomes(bench, p.model, known, {}, jobs);
-      fit.resampled = std::move(open.resampled);
+      fit.draws = std::move(open.draws);
       fit.misfit = open.misfit;
     }
     return fit;

@@ -103,7 +103,7 @@ TEST(OutcomeMisfit, CompareAndDiagnoseSayTheSameOfAModelThatIsBiased) {
   for (std::size_t t = 0; t < data.tests.size(); ++t) data.tests[t].peaks.overturned = expected[t] > 0.7;
   const Bench bench(data, 0);
   OutcomeEffort effort;
-  effort.resamples = 10;
+  effort.draws = 10;
   const Diagnosis d = diagnose_outcomes(bench, slender, {}, {}, effort, run_here);
   EXPECT_EQ(d.verdict, Verdict::unknown);
   EXPECT_EQ(d.reason, Reason::none_helps);
@@ -115,7 +115,8 @@ TEST(OutcomeMisfit, CompareAndDiagnoseSayTheSameOfAModelThatIsBiased) {
     tests.back().model = predict(slender, bench.test(i), {});
   }
   const auto said = compare(bench, slender, {}, tests, {}).findings;
-  EXPECT_THAT(said, Contains(HasSubstr("chance explains that score, but not how many overturned: something is missing")));
+  EXPECT_THAT(said,
+              Contains(HasSubstr("chance explains that score, but not how many overturned: something is missing")));
   EXPECT_THAT(said, Contains(HasSubstr("it is too unstable")));
 }
 

@@ -41,8 +41,8 @@ struct ModelFit {
   std::vector<TestError> calibration = {};  // of each calibration test, with x
   std::vector<TestError> left_out = {};     // of each calibration test, with the fit that did not see it
   std::vector<Interval> intervals = {};     // 95 %, of each free number: jackknife over the folds, Student's t
-  std::vector<Values> resampled = {};       // outcomes: of fits to tests drawn with replacement
-  std::optional<OutcomeMisfit> misfit = {};  // outcomes: of the fit that `resampled` came from
+  std::vector<Values> draws = {};           // outcomes: what the tests leave open (outcome_draws.hpp)
+  std::optional<OutcomeMisfit> misfit = {};  // outcomes: of the fit that `draws` came from
 
   double mean_left_out() const;
 };

@@ -2,9 +2,8 @@
 // most numbers, and each step costs thousands of samples. So outcomes are tabulated (outcome_table.hpp) at points that
 // close in on the best: first over the whole range on coarse places, then twice over the box of the best points so far.
 // Everything else is read off the last table: the fit to all tests; predictions for tests left out, the mean over fits to
-// the other folds, resampled (bagging), as one fit alone jumps where one sample falls that stood before; and 95 % intervals,
-// that hold the fits to tests drawn with replacement (bootstrap) and all points that are worse by no more than chance: the
-// curvature of a flight of steps would say nothing.
+// the other folds, resampled (bagging), as one fit alone jumps where one sample falls that stood before; and joint draws
+// of what the tests leave open (outcome_draws.hpp), from which all intervals are.
 #pragma once
 
 #include "measurement/fit/outcome_table.hpp"
@@ -14,7 +13,7 @@ namespace freestand::measurement {
 struct OutcomeEffort {
   std::size_t wide = 16, near = 12, nearest = 8;  // points of the three rounds, times the count of other numbers
   std::size_t most = 40;                          // points of a round
-  std::size_t resamples = 200;
+  std::size_t draws = 200;
   std::size_t seen_tests = 24, screened_tests = 60;  // with which effects are looked at before they are fitted
 };
 

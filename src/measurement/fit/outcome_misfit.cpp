@@ -26,7 +26,7 @@ VectorXd shares_with_as_much(const VectorXd& values, double same) {
   });
 }
 
-double deviation(const VectorXd& values, double about) {
+double scatter_about(const VectorXd& values, double about) {
   return std::sqrt((values.array() - about).square().mean());
 }
 
@@ -48,10 +48,10 @@ OutcomeMisfit weigh_outcomes(const VectorXd& scores, const VectorXd& beside, dou
           .reached = *twentieth,
           .score = scores[0],
           .usual_score = made.mean(),
-          .score_scatter = deviation(made, made.mean()),
+          .score_scatter = scatter_about(made, made.mean()),
           .fell = fell,
           .expected = fell - beside[0],
-          .count_scatter = deviation(made_beside, 0)};
+          .count_scatter = scatter_about(made_beside, 0)};
 }
 
 OutcomeMisfit outcome_misfit(const Values& probability, const std::vector<bool>& fell,

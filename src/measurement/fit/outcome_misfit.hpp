@@ -15,8 +15,8 @@
 namespace freestand::measurement {
 
 struct OutcomeMisfit {
-  double p = 1, of_score = 1, of_count = 1;  // of both together, and of each
-  double reached = 1;                        // the smaller of the two that one set in twenty has
+  double p = 1, of_score = 1, of_count = 1;              // of both together, and of each
+  double reached = 1;                                    // the smaller of the two that one set in twenty has
   double score = 0, usual_score = 0, score_scatter = 0;  // Brier's; its mean and standard deviation by chance
   double fell = 0, expected = 0, count_scatter = 0;      // tests; standard deviation of fell less expected by chance
 

@@ -15,7 +15,7 @@ using Eigen::VectorXf;
 
 constexpr Index rows_at_once = 32;  // so that products of rows and sets stay small
 
-std::vector<Index> all_of(Index tests) {
+std::vector<Index> every_test(Index tests) {
   std::vector<Index> all(static_cast<std::size_t>(tests));
   std::iota(all.begin(), all.end(), 0);
   return all;
@@ -38,7 +38,7 @@ MatrixXf TableSearch::squares(Index first, const MatrixXf& outcomes, const std::
 }
 
 VectorXf TableSearch::least_squares(const MatrixXf& outcomes) const {
-  const std::vector<Index> tests = all_of(outcomes.rows());
+  const std::vector<Index> tests = every_test(outcomes.rows());
   VectorXf least = VectorXf::Constant(outcomes.cols(), std::numeric_limits<float>::infinity());
   for (Index first = 0; rows_from(first) > 0; first += rows_at_once)
     least = least.cwiseMin(squares(first, outcomes, tests).colwise().minCoeff().transpose());
@@ -46,7 +46,7 @@ VectorXf TableSearch::least_squares(const MatrixXf& outcomes) const {
 }
 
 TableSearch::SetFits TableSearch::fits_to(const MatrixXf& outcomes) const {
-  const std::vector<Index> tests = all_of(outcomes.rows());
+  const std::vector<Index> tests = every_test(outcomes.rows());
   SetFits fits{VectorXf::Constant(outcomes.cols(), std::numeric_limits<float>::infinity()),
                VectorXf::Zero(outcomes.cols())};
   for (Index first = 0; rows_from(first) > 0; first += rows_at_once) {
@@ -66,7 +66,7 @@ TableSearch::SetFits TableSearch::fits_to(const MatrixXf& outcomes) const {
 // The least of all but a fold is sought in what all tests make, less what the fold does.
 VectorXf TableSearch::left_out_squares(const MatrixXf& outcomes) const {
   const Index sets = outcomes.cols();
-  const std::vector<Index> all = all_of(outcomes.rows());
+  const std::vector<Index> all = every_test(outcomes.rows());
   std::vector<std::vector<Index>> folds;
   for (const auto fold = fold_of(all.size()); const Index t : all) {
     const std::size_t f = fold[static_cast<std::size_t>(t)];

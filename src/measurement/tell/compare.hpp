@@ -29,7 +29,8 @@ inline constexpr double drowned = 5;
 struct TestComparison {
   std::size_t test = 0;
   TestError error = {};
-  Values by_draw = {};  // outcomes: probabilities by each draw of the numbers, of which that of the error is the mean; or none
+  Values by_draw =
+      {};  // outcomes: probabilities by each draw of the numbers, of which that of the error is the mean; or none
   // Histories only, else nan: explained_error(), expected_error(), and what the floor may have done to the history between its readings, root
   // mean square [noise units]: at most so much, of a floor that is not smooth there.
   double explained = 0, expected = 0, unread = 0;

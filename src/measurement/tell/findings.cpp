@@ -263,7 +263,8 @@ class Findings {
         missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
     const bool fitted = role == Role::calibration && c_.misfit;
     const OutcomeMisfit misfit = fitted ? *c_.misfit : outcome_misfit(probability, fallen, by_draw(all));
-    say("the Brier score of the {} tests is {:.4f}{}; were the model's probabilities right, chance alone would make {:.4f} "
+    say("the Brier score of the {} tests is {:.4f}{}; were the model's probabilities right, chance alone would make "
+        "{:.4f} "
         "+- {:.4f}: {}",
         whose, brier, fitted ? fmt::format(" ({:.4f} as fitted)", misfit.score) : "", misfit.usual_score,
         misfit.score_scatter,
