@@ -224,7 +224,8 @@ def read_comparison(folder):
     tests = [_test(node) for node in root.nodes("tests", needed=True)]
     parameters = []
     for node in root.nodes("parameters"):
-        parameters.append(node.row("value lower upper", "name unit open", "calibrated") | {"interval": node.interval("interval")})
+        parameters.append(node.row("value lower upper", "name unit open", "calibrated") | {
+            "interval": node.interval("interval"), "interval_90": node.interval("interval_90")})
     ratio, tables = root.node("peak_ratio"), root.node("error_tables")
     columns = "error_noise_units growth_noise_units growth_slip_m growth_rotation_rad bias_noise_units"
     return Comparison(

@@ -218,7 +218,8 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
   const Posterior open = open_numbers(bench, fit, jobs);
   Effort effort;
   const Quality quality = examine(bench, fit, effort, jobs);
-  Comparison c = measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, open, jobs), quality);
+  Comparison c =
+      measurement::compare(bench, fit.model, fit.x, compare_tests(bench, fit, open, jobs), quality, fit.misfit);
   for (std::string& finding : measurement::undetermined(fit)) c.findings.push_back(std::move(finding));
 
   if (open.friction_scatter > 0 && !draws_friction(fit.model, open))

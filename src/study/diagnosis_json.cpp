@@ -142,7 +142,7 @@ double noise_floor(const Bench& bench, const Diagnosis& d) {
 }
 
 // Of the base and of what the verdict names, those that `compare` gives the same fit; of all others by the scores, whatever the refits did.
-// Intervals of outcomes are of another kind. Returned: the numbers of the base that draws suit better; empty: none do.
+// Those of outcomes come with the fits. Returned: the numbers of the base that draws suit better; empty: none do.
 Values state_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
   if (outcomes_only(bench.data())) return {};
   std::vector<ModelFit*> named = {&d.base.fit}, others;

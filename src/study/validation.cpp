@@ -103,9 +103,8 @@ const char* calibration_method(const Bench& bench) {
     return "outcomes are computed for many placements of the specimen at points of a Sobol sequence that"
            " close in on the best; over these points, and over middle and scatter of the placements, "
            "Brier's score of the calibration tests is made least; tests left out are predicted by the "
-           "mean over 25 fits to draws of the others with replacement; intervals of 95 % hold the fits "
-           "to 200 draws of the tests with replacement, and all points that are worse by no more than "
-           "chance";
+           "mean over 25 fits to draws of the others with replacement; intervals of 95 % are those of joint "
+           "draws: the likelihood of the outcomes, as wide as the disagreement of the tests makes it";
   if (measurement::kind_of_set(bench) == measurement::Kind::peaks)
     return "points of a Sobol sequence are screened, from the best few the simplex method of Nelder and "
            "Mead descends (GSL nmsimplex2), and once more from the best of those; the mean of "
@@ -234,8 +233,11 @@ ModelFit fitted(const Prepared& p, bool refit, const Jobs& jobs) {
     evaluate(bench, {&fit}, jobs);
     fit.intervals = known_intervals(p);
     // Outcomes are predicted by the mean over all numbers that the tests leave open, whoever fitted them.
-    if (outcomes_only(p.data) && !fit.x.empty() && !tests_of(p.data, Role::calibration).empty())
-      fit.resampled = fit_outcomes(bench, p.model, known, {}, jobs).resampled;
+    if (outcomes_only(p.data) && !fit.x.empty() && !tests_of(p.data, Role::calibration).empty()) {
+      ModelFit open = fit_outcomes(bench, p.model, known, {}, jobs);
+      fit.draws = std::move(open.draws);
+      fit.misfit = open.misfit;
+    }
     return fit;
   }
   if (tests_of(p.data, Role::calibration).empty())
@@ -263,7 +265,10 @@ void average_over_draws(const Bench& bench, const ModelSpec& model, const Poster
   });
   for (std::size_t t = 0; t < outcomes.size(); ++t) {
     double mean = 0;
-    for (const Values& answer : answers) mean += answer[t] / static_cast<double>(count);
+    for (const Values& answer : answers) {
+      mean += answer[t] / static_cast<double>(count);
+      tests[outcomes[t]].by_draw.push_back(answer[t]);
+    }
     tests[outcomes[t]].error = outcome_error(bench.test(outcomes[t]), std::clamp(mean, 0.0, 1.0));
   }
 }

@@ -11,7 +11,7 @@
 namespace freestand::measurement {
 namespace {
 
-const OutcomeEffort few_resamples{.resamples = 10};
+const OutcomeEffort few_draws{.draws = 10};
 
 // The base, and with each effect.
 struct FittedToOutcomes {
@@ -21,11 +21,11 @@ struct FittedToOutcomes {
 FittedToOutcomes fitted_to_outcomes(const Bench& bench, const std::vector<std::string>& names) {
   std::vector<const dynamics::Effect*> effects;
   for (const std::string& name : names) effects.push_back(effects::find(name));
-  FittedToOutcomes all{tabulate_outcomes(bench, rocking_model(true_size_m), {}, few_resamples, run_here), {}};
-  auto screened = screen_outcomes(bench, all.base.fit, effects, few_resamples, run_here);
+  FittedToOutcomes all{tabulate_outcomes(bench, rocking_model(true_size_m), {}, few_draws, run_here), {}};
+  auto screened = screen_outcomes(bench, all.base.fit, effects, few_draws, run_here);
   std::vector<OutcomeTable*> tables;
   for (Screened& s : screened) tables.push_back(&s.table);
-  all.with = tabulate_outcomes(bench, all.base.fit, tables, few_resamples, run_here);
+  all.with = tabulate_outcomes(bench, all.base.fit, tables, few_draws, run_here);
   return all;
 }
 
@@ -39,7 +39,7 @@ Chance gain_of_any(const Bench& bench, const FittedToOutcomes& all) {
 TEST(ChanceOfOutcomes, RefitsAreThoseOfTheTable) {
   const Dataset data = made_outcomes(30, {});
   const Bench bench(data, 0);
-  const TabulatedFit base = tabulate_outcomes(bench, rocking_model(true_size_m), {}, few_resamples, run_here);
+  const TabulatedFit base = tabulate_outcomes(bench, rocking_model(true_size_m), {}, few_draws, run_here);
   Eigen::MatrixXf measured(30, 1);
   for (int t = 0; t < 30; ++t) measured(t, 0) = *data.tests[static_cast<std::size_t>(t)].peaks.overturned ? 1 : 0;
   const TableSearch search(bench, base.table);
@@ -57,7 +57,7 @@ TEST(ChanceOfOutcomes, HaveTheSizeOfChance) {
     const Bench bench(data, 0);
     const FittedToOutcomes all = fitted_to_outcomes(bench, {"offset_mass"});
     helped += !gain_of_any(bench, all).chance();
-    not_enough += !chance_of_misfit_of_outcomes(bench, all.base).chance();
+    not_enough += !chance_of_misfit(outcome_misfit(bench, all.base)).chance();
   }
   std::printf("of %d sets: an effect helps %d, not enough %d\n", sets, helped, not_enough);
   EXPECT_LE(helped, test::likely_counts(sets, 0.05).most);

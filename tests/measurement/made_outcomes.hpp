@@ -52,7 +52,7 @@ inline constexpr double true_slenderness = 0.2, true_size_m = 0.6, true_scatter 
 
 // Tests of a block whose slenderness scatters, with the effects of `truth`; motions that make about half overturn.
 inline Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& truth, std::uint64_t seed = 7,
-                             double scatters = true_scatter) {
+                             double scatters = true_scatter, double slender = true_slenderness) {
   Dataset data;
   data.name = "made";
   for (std::size_t i = 0; i < count; ++i) {
@@ -61,7 +61,7 @@ inline Dataset made_outcomes(std::size_t count, const std::vector<EffectUse>& tr
     test.id = "t" + std::to_string(i);
     test.motion = swing((draw(1) < 0.5 ? -1 : 1) * (2 + 3 * draw(2)), 0.5 + 0.7 * draw(3));
     const double scatter = scatters * gsl_cdf_ugaussian_Pinv(draw(4));
-    const double slenderness = true_slenderness * std::exp(scatter);
+    const double slenderness = slender * std::exp(scatter);
     Specimen s;
     s.model = Model::rock;
     s.friction = {1, 1};

@@ -10,7 +10,9 @@
 
 #include "base/random.hpp"
 #include "effects/effects.hpp"
+#include "measurement/fit/posterior.hpp"
 #include "measurement/made_outcomes.hpp"
+#include "measurement/tell/findings.hpp"
 #include "measurement/tell/suggest_outcomes.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
 #include "measurement/verdict/outcome_screen.hpp"
@@ -23,7 +25,7 @@ Diagnosis diagnosed(const Bench& bench, const std::vector<std::string>& names) {
   std::vector<const dynamics::Effect*> catalogue;
   for (const auto& name : names) catalogue.push_back(effects::find(name));
   OutcomeEffort effort;
-  effort.resamples = 40;
+  effort.draws = 40;
   return diagnose_outcomes(bench, rocking_model(true_size_m), catalogue, {}, effort, run_here);
 }
 
@@ -33,65 +35,73 @@ const Candidate& candidate(const Diagnosis& d, const std::string& effect) {
   throw Error(effect + " is no candidate");
 }
 
-// Five tests say little, and intervals of 95 % say so, whatever window the places of a fit lie in: of 40 sets 33 hold the truth in one of a
-// thousand programs that are right.
-TEST(OutcomeFit, IntervalsOfFewTestsHoldTheTruth) {
-  constexpr int sets = 40;
-  int slenderness = 0, scatter = 0;
-  for (std::uint64_t seed = 100; seed < 100 + sets; ++seed) {
-    const Dataset data = made_outcomes(5, {}, seed);
-    const ModelFit fit = fit_outcomes(Bench(data, 0), rocking_model(true_size_m), {}, {}, run_here);
-    const auto holds = [&](std::size_t k, double truth) {
-      return fit.intervals[k].lower <= truth && truth <= fit.intervals[k].upper;
-    };
-    slenderness += holds(0, true_slenderness);
-    scatter += holds(1, true_scatter);
+// Of so many sets, by how many of them intervals hold each number, of two levels.
+struct Held {
+  int sets = 0;
+  std::vector<int> by_90, by_95;
+  void add(const ModelFit& fit, const Values& truth) {
+    by_90.resize(truth.size()), by_95.resize(truth.size());
+    Posterior open;
+    open.of_mean = fit.draws;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const auto holds = [&](const Interval& it) { return it.lower <= truth[i] && truth[i] <= it.upper; };
+      by_90[i] += holds(interval_of(open, fit, i, 0.9));
+      by_95[i] += holds(fit.intervals[i]);
+    }
+    ++sets;
   }
-  EXPECT_GE(slenderness, 33);
-  EXPECT_GE(scatter, 33);
+  // As often as they say, and no more often where enough is known that no bound of a range does.
+  void expect(bool no_more) const {
+    for (std::size_t i = 0; i < by_90.size(); ++i) {
+      std::printf("number %zu: of %d sets 90 %% held %d, 95 %% held %d\n", i, sets, by_90[i], by_95[i]);
+      EXPECT_GE(by_90[i], test::likely_counts(sets, 0.9).least) << i;
+      EXPECT_GE(by_95[i], test::likely_counts(sets, 0.95).least) << i;
+      if (no_more) {
+        EXPECT_LE(by_90[i], test::likely_counts(sets, 0.9).most) << i;
+      }
+    }
+  }
+};
+
+// What is told of the same numbers is one thing: intervals of any level are those of the draws that sweeps and predictions go by, and hold the
+// truth as often as they say. (Of 200 sets of 40 tests 90 % held the slenderness in 180, the scatter in 185; of 200 sets of 100 tests in 189 and 188. Before, 95 % held both in
+// all of 60, and draws the scatter in 26 of 100 sets of five tests.)
+TEST(OutcomeFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
+  Held held;
+  for (std::uint64_t seed = 500; held.sets < test::repeats_asked(100); ++seed)
+    held.add(fit_outcomes(Bench(made_outcomes(40, {}, seed), 0), rocking_model(true_size_m), {}, {}, run_here),
+             {true_slenderness, true_scatter});
+  held.expect(true);
 }
 
-// So does that of the number of an effect, of which some forty values are looked at: of 30 sets 24 hold the truth in one of a
-// thousand programs that are right.
+// Five tests say little, so that much hangs on what was held for possible: with truths from all of that they are as sure as they say.
+TEST(OutcomeFit, IntervalsOfFewTestsHoldTheTruth) {
+  Held held;
+  const ModelSpec model = rocking_model(true_size_m);
+  for (std::uint64_t seed = 100; held.sets < test::repeats_asked(100); ++seed) {
+    const Free& free = model.free[0];
+    const Values truth = {free.lower * std::pow(free.upper / free.lower, random::uniform(81, seed, 0)),
+                          model.free[1].upper * random::uniform(81, seed, 1)};
+    const Dataset data = made_outcomes(5, {}, seed, truth[1], truth[0]);
+    held.add(fit_outcomes(Bench(data, 0), model, {}, {}, run_here), truth);
+  }
+  held.expect(false);
+}
+
+// So do those of the number of an effect, of which some forty values are looked at.
 TEST(OutcomeFit, IntervalsOfTheNumberOfAnEffectHoldTheTruth) {
-  const int sets = test::repeats_asked(test::long_tests() ? 30 : 12);
-  constexpr double truth = 0.25;
+  Held held;
   const auto* offset_mass = effects::find("offset_mass");
-  OutcomeEffort effort;
-  effort.resamples = 40;
-  int held = 0;
-  for (std::uint64_t seed = 200; seed < 200 + static_cast<std::uint64_t>(sets); ++seed) {
-    const Dataset data = made_outcomes(12, {{offset_mass, {truth}}}, seed);
+  for (std::uint64_t seed = 200; held.sets < test::repeats_asked(test::long_tests() ? 60 : 20); ++seed) {
+    const Dataset data = made_outcomes(24, {{offset_mass, {0.25}}}, seed);
     const Bench bench(data, 0);
     const ModelSpec model = with_effect(rocking_model(true_size_m), *offset_mass, bench.reach());
-    const ModelFit fit = fit_outcomes(bench, model, {}, effort, run_here);
-    held += fit.intervals[2].lower <= truth && truth <= fit.intervals[2].upper;
+    held.add(fit_outcomes(bench, model, {}, {}, run_here), {true_slenderness, true_scatter, 0.25});
   }
-  EXPECT_GE(held, 0.8 * sets);
+  held.expect(false);
 }
 
-// The draws that sweeps and predictions go by: 90 % of them hold the scatter of the placements. (Of fits to resampled tests they held it in 21
-// of 30 sets, and all others lay below.)
-TEST(OutcomeFit, DrawsOfTheScatterHoldTheTruth) {
-  const int sets = test::repeats_asked(test::long_tests() ? 60 : 10);
-  int held = 0, below = 0;
-  for (std::uint64_t seed = 300; seed < 300 + static_cast<std::uint64_t>(sets); ++seed) {
-    const Dataset data = made_outcomes(40, {}, seed);
-    const ModelFit fit = fit_outcomes(Bench(data, 0), rocking_model(true_size_m), {}, {}, run_here);
-    std::vector<double> scatters;
-    for (const Values& x : fit.resampled) scatters.push_back(x[1]);
-    std::ranges::sort(scatters);
-    const auto at = [&](double share) {
-      return scatters[static_cast<std::size_t>(share * static_cast<double>(scatters.size()))];
-    };
-    held += at(0.05) <= true_scatter && true_scatter <= at(0.95);
-    below += at(0.95) < true_scatter;
-  }
-  EXPECT_GE(held, test::likely_counts(sets, 0.9).least);
-  EXPECT_LE(below, test::likely_counts(sets, 0.05).most);
-}
-
-// Nothing is open of the placements: draws are those of the effect's number by resampled tests, not the fit time and again.
+// Nothing is open of the placements: draws are those of the effect's number, not the fit time and again.
 TEST(OutcomeFit, DrawsOfOtherNumbersScatterToo) {
   const auto* offset_mass = effects::find("offset_mass");
   const Dataset data = made_outcomes(40, {{offset_mass, {0.25}}});
@@ -101,7 +111,7 @@ TEST(OutcomeFit, DrawsOfOtherNumbersScatterToo) {
   known.placement_scatter = Number{.value = true_scatter};
   known.free.clear();
   const ModelFit fit = fit_outcomes(bench, with_effect(known, *offset_mass, bench.reach()), {}, {}, run_here);
-  const auto [least, most] = std::ranges::minmax(fit.resampled);
+  const auto [least, most] = std::ranges::minmax(fit.draws);
   EXPECT_LT(least[0], most[0]);
 }
 
@@ -111,30 +121,15 @@ TEST(OutcomeFit, TestsThatAllFellBoundASlendernessFromOneSide) {
   for (measurement::Test& test : data.tests) test.peaks.overturned = true;
   const ModelSpec model = rocking_model(true_size_m);
   const ModelFit fit = fit_outcomes(Bench(data, 0), model, {}, {}, run_here);
-  EXPECT_NEAR(fit.intervals[0].lower, model.free[0].lower, 1e-9);
-  EXPECT_EQ(fit.intervals[1].lower, model.free[1].lower);
+  EXPECT_TRUE(open_ends(fit, 0).below);
+  EXPECT_FALSE(open_ends(fit, 0).above);
   // And a sweep draws from all of it that was looked at.
   double least = 1, most = 0;
-  for (const Values& x : fit.resampled) {
+  for (const Values& x : fit.draws) {
     least = std::min(least, x[0]);
     most = std::max(most, x[0]);
   }
   EXPECT_GT(std::log(most / least), 0.3 * std::log(fit.intervals[0].upper / fit.intervals[0].lower));
-}
-
-// Eight tests with a chance of 0.02 each: Brier's score is one of few values, far from normal.
-TEST(OutcomeFit, ProbabilitiesThatAreRightAreRarelyCalledTooSure) {
-  int called = 0;
-  constexpr int sets = 2000;
-  for (std::uint64_t s = 0; s < sets; ++s) {
-    std::vector<TestError> errors;
-    for (std::uint64_t t = 0; t < 8; ++t) {
-      const double p = 0.02, y = random::uniform(11, s, t) < p ? 1 : 0;
-      errors.push_back({.score = (p - y) * (p - y), .probability = p});
-    }
-    called += surer_than_it_may_be(errors);
-  }
-  EXPECT_LE(called, 0.065 * sets);
 }
 
 // A block that overturns where it is narrower than at s stands with probability Q((s - m)/scatter). Between two places
@@ -214,12 +209,9 @@ TEST(Outcomes, FitFindsSlendernessAndScatterAgain) {
   const ModelFit fit = fit_outcomes(bench, rocking_model(true_size_m), {}, {}, run_here);
   EXPECT_NEAR(fit.x[0], true_slenderness, 0.015);
   EXPECT_NEAR(fit.x[1], true_scatter, 0.08);
-  // 200 outcomes, some tens of them unsure: known to some percent, neither exactly nor not at all. The interval holds all
-  // that these outcomes do not rule out, which is more than resampled ones find.
+  // 200 outcomes, some tens of them unsure: known to some percent, neither exactly nor not at all.
   EXPECT_GT(fit.intervals[0].upper - fit.intervals[0].lower, 0.01 * true_slenderness);
   EXPECT_LT(fit.intervals[0].upper - fit.intervals[0].lower, 0.3 * true_slenderness);
-  EXPECT_LT(fit.intervals[0].lower, true_slenderness);
-  EXPECT_GT(fit.intervals[0].upper, true_slenderness);
   EXPECT_LE(fit.intervals[0].lower, fit.x[0]);
   EXPECT_GE(fit.intervals[0].upper, fit.x[0]);
   // The score that compare computes anew at the same numbers.
@@ -250,7 +242,7 @@ TEST(Outcomes, PredictionsForTestsLeftOutDoNotJump) {
   const Dataset data = made_outcomes(120, {});
   const Bench bench(data, 0);
   OutcomeEffort effort;
-  effort.resamples = 10;
+  effort.draws = 10;
   std::vector<ModelFit> fits;
   for (const double least : {0.3, 0.31, 0.32}) {
     ModelSpec model = rocking_model(true_size_m);
@@ -295,14 +287,11 @@ TEST(Outcomes, AModelThatIsSurerThanItMayBeLacksSomething) {
   sure.placement_scatter = Number{.value = 0.2 * true_scatter};
   sure.free.pop_back();
   OutcomeEffort effort;
-  effort.resamples = 10;
+  effort.draws = 10;
   const Diagnosis d = diagnose_outcomes(bench, sure, {effects::find("static_friction")}, {}, effort, run_here);
-  EXPECT_TRUE(surer_than_it_may_be(d.base.fit.calibration));
   EXPECT_EQ(d.verdict, Verdict::unknown);
   EXPECT_EQ(d.reason, Reason::none_helps);
   EXPECT_TRUE(d.effects.empty());
-  EXPECT_TRUE(surer_than_it_may_be({{.score = 0.81, .probability = 0.1}, {.score = 0.81, .probability = 0.9}}));
-  EXPECT_FALSE(surer_than_it_may_be({{.score = 0.01, .probability = 0.1}, {.score = 0.01, .probability = 0.9}}));
 }
 
 TEST(Outcomes, AsymmetryIsNamed) {

@@ -7,7 +7,8 @@ from . import Picture
 
 order = 160
 CAPTION = ("Each point is a set of numbers that the calibration tests allow, as a sweep of fitted.yaml draws them; crosses: the fit. Dashed: "
-           "nine in ten of each number lie between. Where friction differs from test to test, it is that of another test.")
+           "the interval of 90 % of each number. Where friction or the placement differs from test to test, points are those of another test, and "
+           "scatter further than the interval of the mean.")
 
 
 def pictures(results):
@@ -17,6 +18,7 @@ def pictures(results):
 
 def _picture(comparison):
     best = {row["name"]: row["value"] for row in comparison.parameters}
+    between = {row["name"]: row["interval_90"] for row in comparison.parameters}
     names = [name for name in comparison.draws if name in best]
     values = [comparison.draws[name] for name in names]
     n = len(names)
@@ -27,7 +29,7 @@ def _picture(comparison):
             if j > i:
                 axes[i, j].set_visible(False)
             elif i == j:
-                _one(axes[i, i], values[i], best[names[i]])
+                _one(axes[i, i], values[i], best[names[i]], between[names[i]])
             else:
                 axes[i, j].plot(values[j], values[i], ".", ms=3, color=style.BLUE, alpha=0.35, mew=0)
                 axes[i, j].plot(best[names[j]], best[names[i]], "x", ms=7, mew=1.6, color=style.VERMILION)
@@ -38,19 +40,20 @@ def _picture(comparison):
         axes[n - 1, k].set_xlabel(validation.parameter(name).replace(": ", ":\n"))
         if k > 0:
             axes[k, 0].set_ylabel(validation.parameter(name).replace(": ", ":\n"))
-    finding = _finding(comparison, names, values)
+    finding = _finding(comparison, names, values, [between[name] for name in names])
     style.headline(fig, finding, f"{len(values[0])} joint draws of the fitted numbers.")
     return Picture("draws", fig, finding, CAPTION, "draws")
 
 
-def _one(ax, values, best):
+def _one(ax, values, best, between):
     ax.hist(values, bins=24, color=style.BLUE, alpha=0.55)
     ax.axvline(best, color=style.VERMILION, lw=1.6)
-    for end in np.quantile(values, (0.05, 0.95)):
+    for end in between:
         ax.axvline(end, color=style.MUTED, lw=0.9, ls="--")
 
 
-def _finding(comparison, names, values):
+def _finding(comparison, names, values, between):
+    """between: the intervals that comparison.json tells, of 90 %."""
     scatter = comparison.friction_scatter
     friction = f"; friction differs by {words.percent(scatter)} from test to test" if scatter > 0 else ""
     if len(names) > 1:
@@ -60,9 +63,9 @@ def _finding(comparison, names, values):
         if abs(r[i, j]) > 0.7:
             return (f"The tests know {_called(names[i])} and {_called(names[j])} better together than each "
                     f"(correlation {r[i, j]:.2f}){friction}")
-    widths = [np.subtract(*np.quantile(v, (0.95, 0.05))) / abs(np.median(v)) for v in values]
+    widths = [(high - low) / abs(np.median(v)) for (low, high), v in zip(between, values)]
     k = int(np.argmax(widths))
-    low, high = np.quantile(values[k], (0.05, 0.95))
+    low, high = between[k]
     return (f"The tests leave {_called(names[k])} open between {words.number(low)} and {words.number(high)}"
             f"{', and the other numbers less' if len(names) > 1 else ''}{friction}")
 

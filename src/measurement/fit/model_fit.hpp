@@ -3,10 +3,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/jobs.hpp"
+#include "measurement/fit/outcome_misfit.hpp"
 #include "measurement/predict/score.hpp"
 #include "measurement/search.hpp"
 
@@ -39,7 +41,8 @@ struct ModelFit {
   std::vector<TestError> calibration = {};  // of each calibration test, with x
   std::vector<TestError> left_out = {};     // of each calibration test, with the fit that did not see it
   std::vector<Interval> intervals = {};     // 95 %, of each free number: jackknife over the folds, Student's t
-  std::vector<Values> resampled = {};       // outcomes: of fits to tests drawn with replacement
+  std::vector<Values> draws = {};           // outcomes: what the tests leave open (outcome_draws.hpp)
+  std::optional<OutcomeMisfit> misfit = {};  // outcomes: of the fit that `draws` came from
 
   double mean_left_out() const;
 };

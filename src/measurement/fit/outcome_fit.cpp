@@ -8,6 +8,8 @@
 #include <numeric>
 
 #include "base/random.hpp"
+#include "measurement/fit/outcome_draws.hpp"
+#include "measurement/fit/posterior.hpp"
 #include "measurement/fit/starts.hpp"
 
 namespace freestand::measurement {
@@ -51,7 +53,7 @@ std::vector<Free> elite_box(const ModelSpec& model, const std::vector<std::size_
   return box;
 }
 
-// With all that the tests do not rule out: in what was seen resampled ones find their own best; beyond it intervals find their ends.
+// With all that the tests do not rule out: where draws and fits to resampled tests come from.
 std::vector<Free> grown(std::vector<Free> box, const std::vector<std::size_t>& numbers,
                         const std::vector<Interval>& open) {
   for (std::size_t k = 0; k < numbers.size(); ++k) {
@@ -90,11 +92,10 @@ Places fine_places(const OutcomeTable& table, const Values& x, const std::vector
   return places_between(first, last, step);
 }
 
-// All from the table: the fit, its folds, its intervals. One job.
+// All from the table: the fit, its folds, its draws. One job.
 class Reading {
  public:
-  // known: what the coarse places leave open, over the whole range.
-  Reading(const Bench& bench, const OutcomeTable& table, const std::vector<Interval>& known, std::size_t resamples)
+  Reading(const Bench& bench, const OutcomeTable& table, std::size_t draws)
       : bench_(bench), table_(table), search_(bench, table), fold_(fold_of(table.tests.size())) {
     all_ = search_.best();
     add(all_);
@@ -108,7 +109,8 @@ class Reading {
       for (std::size_t t = 0; t < fold_.size(); ++t)
         if (fold_[t] == f) answer_.push_back(probability[t]);
     }
-    intervals(known, resamples);
+    for (const Values& x : OutcomeDraws(bench, table, all_).draw(draws))
+      answer_.insert(answer_.end(), x.begin(), x.end());
   }
   const Values& answer() const { return answer_; }
 
@@ -137,31 +139,6 @@ class Reading {
   }
 
   void add(const TableFit& fit) { answer_.insert(answer_.end(), fit.x.begin(), fit.x.end()); }
-
-  void intervals(const std::vector<Interval>& known, std::size_t resamples) {
-    const std::size_t n = table_.tests.size(), numbers = all_.x.size();
-    std::vector<Values> found(numbers);
-    Values drawn;
-    constexpr std::uint64_t likely = 1000;  // seed; resampled ones have those of folds
-    const std::vector<double> likelihoods = search_.ln_likelihoods(all_);
-    for (std::size_t b = 0; b < resamples; ++b) {
-      const TableFit fit = search_.best(resampled(std::vector<double>(n, 1.0), 1, b), random::uniform(1, b, n));
-      for (std::size_t i = 0; i < numbers; ++i) found[i].push_back(fit.x[i]);
-      // Fits to resampled tests scatter less than placements do: 90 % of them held a true scatter in 21 of 30 sets.
-      const Values x = search_.as_likely(
-          fit.point, likelihoods,
-          {random::uniform(likely, b, 0), random::uniform(likely, b, 1), random::uniform(likely, b, 2)});
-      drawn.insert(drawn.end(), x.begin(), x.end());
-    }
-    const std::vector<Interval> open = search_.within_chance(all_, known);
-    for (std::size_t i = 0; i < numbers; ++i) {
-      std::sort(found[i].begin(), found[i].end());
-      const double most = static_cast<double>(resamples) - 1;
-      answer_.push_back(std::min(open[i].lower, found[i][static_cast<std::size_t>(std::lround(0.025 * most))]));
-      answer_.push_back(std::max(open[i].upper, found[i][static_cast<std::size_t>(std::lround(0.975 * most))]));
-    }
-    answer_.insert(answer_.end(), drawn.begin(), drawn.end());
-  }
 
   static constexpr std::size_t bags = 25;
 
@@ -196,13 +173,12 @@ ModelFit unpacked(const Bench& bench, const OutcomeTable& table, const Values& a
     for (std::size_t t = 0; t < n; ++t)
       if (fold[t] == f) fit.left_out[t] = outcome_error(bench.test(table.tests[t]), *at++);
   }
-  for (std::size_t i = 0; i < numbers; ++i) {
-    const Values ends = take(2);
-    fit.intervals.push_back({ends[0], ends[1]});
-  }
-  while (at != answer.end() && numbers > 0) fit.resampled.push_back(take(numbers));
+  while (at != answer.end() && numbers > 0) fit.draws.push_back(take(numbers));
   fit.evaluations = static_cast<int>(table.points.size());
   fit.left_out_refitted = true;
+  Posterior open;
+  open.of_mean = fit.draws;
+  take_intervals(open, fit);
   return fit;
 }
 
@@ -248,12 +224,11 @@ std::vector<TabulatedFit> close_in(const Bench& bench, const std::vector<Outcome
                                    const ModelFit* without, const OutcomeEffort& effort, const Jobs& jobs) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<OutcomeTable> fine;
-  std::vector<std::vector<Interval>> known;
   for (const OutcomeTable* table : coarse) {
     const TableSearch search(bench, *table);
     const TableFit best = search.best();
     const auto numbers = other_numbers(table->model);
-    const std::vector<Interval>& open = known.emplace_back(search.within_chance(best));
+    const std::vector<Interval> open = search.within_chance(best);
     fine.push_back({table->model, table->without, tests, fine_places(*table, best.x, open)});
     if (without) add_plain_points(fine.back(), *without);
     if (!table->points[best.point].plain) fine.back().points.push_back({best.x});
@@ -292,9 +267,8 @@ std::vector<TabulatedFit> close_in(const Bench& bench, const std::vector<Outcome
     place_again(search, search.best(), table);
   }
   compute(bench, pointers(fine), "outcomes at finer places", jobs);
-  const auto answers = jobs("folds and resampled tests", fine.size(), [&](std::size_t i) {
-    return Reading(bench, fine[i], known[i], effort.resamples).answer();
-  });
+  const auto answers = jobs("folds and draws", fine.size(),
+                            [&](std::size_t i) { return Reading(bench, fine[i], effort.draws).answer(); });
   std::vector<TabulatedFit> fits;
   for (std::size_t i = 0; i < fine.size(); ++i) {
     ModelFit fit = unpacked(bench, fine[i], answers[i]);
@@ -313,7 +287,14 @@ bool outcomes_only(const Dataset& data) {
 
 ModelFit fit_outcomes(const Bench& bench, const ModelSpec& model, const Values& start, const OutcomeEffort& effort,
                       const Jobs& jobs) {
-  return tabulate_outcomes(bench, model, start, effort, jobs).fit;
+  TabulatedFit found = tabulate_outcomes(bench, model, start, effort, jobs);
+  const Values m = jobs("whether the model is enough", 1, [&](std::size_t) {
+                     const OutcomeMisfit of = outcome_misfit(bench, found);
+                     return Values{of.p,           of.of_score,      of.of_count, of.reached,  of.score,
+                                   of.usual_score, of.score_scatter, of.fell,     of.expected, of.count_scatter};
+                   }).front();
+  found.fit.misfit = {m[0], m[1], m[2], m[3], m[4], m[5], m[6], m[7], m[8], m[9]};
+  return std::move(found.fit);
 }
 
 TabulatedFit tabulate_outcomes(const Bench& bench, const ModelSpec& model, const Values& start,

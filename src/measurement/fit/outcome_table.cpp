@@ -12,11 +12,6 @@
 namespace freestand::measurement {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXf;
-using Eigen::VectorXf;
-
-constexpr Eigen::Index rows_at_once = 32;                 // so that products of rows and sets stay small
 constexpr std::size_t part = 64;                          // tests a job
 constexpr double middle_step = 0.03, scatter_step = 0.2;  // in the logarithm
 constexpr int polish_budget = 40;
@@ -87,8 +82,9 @@ void add_points(OutcomeTable& table, const std::vector<Free>& box, const std::ve
     if (table.points.empty()) table.points.push_back({x});
     return;
   }
+  table.boxes.push_back({box, numbers, count});
   for (const Values& z : sobol_starts(box, count)) {
-    table.points.push_back({x});
+    table.points.push_back({.x = x, .of_box = true});
     for (std::size_t i = 0; i < numbers.size(); ++i) table.points.back().x[numbers[i]] = z[i];
   }
 }
@@ -164,25 +160,20 @@ std::vector<double> TableSearch::probabilities(std::size_t point, const Values& 
   return all;
 }
 
-TableFit TableSearch::best(const std::vector<double>& weight, double among) const {
+TableFit TableSearch::best(const std::vector<double>& weight) const {
   const std::size_t n = overturned_.size();
   std::vector<float> share(n, 1.0F / static_cast<float>(n)), y(overturned_.begin(), overturned_.end());
   double total = 0;
   for (const double w : weight) total += w;
   for (std::size_t t = 0; t < weight.size(); ++t) share[t] = static_cast<float>(weight[t] / total);
-  constexpr float same = 1e-6F;  // some roundings of a sum that is at most 1: 8 of 2^-23
-  std::vector<std::size_t> equal;
+  std::size_t row = 0;
   float least = std::numeric_limits<float>::infinity();
   for (std::size_t r = 0; r < rows_.size(); ++r) {
     float sum = 0;
     const float* p = probability_.data() + r * n;
     for (std::size_t t = 0; t < n; ++t) sum += share[t] * (p[t] - y[t]) * (p[t] - y[t]);
-    if (sum < least - same) equal.clear();
-    if (sum <= least + same) equal.push_back(r);
-    least = std::min(least, sum);
+    if (sum < least) row = r, least = sum;
   }
-  const std::size_t row =
-      equal[std::min(equal.size() - 1, static_cast<std::size_t>(among * static_cast<double>(equal.size())))];
   TableFit fit{.point = rows_[row].point, .x = placed(rows_[row])};
   // Middle and scatter between the rows.
   std::vector<Free> free;
@@ -219,47 +210,6 @@ TableFit TableSearch::best(const std::vector<double>& weight, double among) cons
   return fit;
 }
 
-std::vector<double> TableSearch::ln_likelihoods(const TableFit& fit) const {
-  const std::size_t n = overturned_.size();
-  double missed = 0, expected = 0;
-  for (std::size_t t = 0; t < n; ++t)
-    missed += std::pow(fit.probability[t] - overturned_[t], 2),
-        expected += fit.probability[t] * (1 - fit.probability[t]);
-  const double excess = expected > 0 ? std::max(1.0, missed / expected) : 1;
-  const double least = 0.5 / static_cast<double>(std::max<std::size_t>(table_.places.count, 1));  // half a place
-  std::vector<double> all;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    double sum = 0;
-    for (std::size_t t = 0; t < n; ++t) {
-      const double p = std::clamp(static_cast<double>(probability_[r * n + t]), least, 1 - least);
-      sum += std::log(overturned_[t] > 0 ? p : 1 - p);
-    }
-    all.push_back(sum / excess);
-  }
-  return all;
-}
-
-Values TableSearch::as_likely(std::size_t point, const std::vector<double>& ln_likelihoods,
-                              const std::array<double, 3>& u) const {
-  std::vector<std::size_t> rows;
-  std::vector<double> likelihood;  // its logarithm, then the sum so far
-  for (std::size_t r = 0; r < rows_.size(); ++r)
-    if (rows_[r].point == point) rows.push_back(r), likelihood.push_back(ln_likelihoods[r]);
-  const double most = *std::ranges::max_element(likelihood);
-  double total = 0;
-  for (double& l : likelihood) l = total += std::exp(l - most);
-  const auto place = std::ranges::upper_bound(likelihood, u[0] * total) - likelihood.begin();
-  Values x = placed(rows_[rows[std::min(static_cast<std::size_t>(place), rows.size() - 1)]]);
-  const auto within = [&](int number, double step, double share) {
-    if (number < 0) return;
-    const auto i = static_cast<std::size_t>(number);
-    x[i] = std::clamp(x[i] * std::exp(step * (share - 0.5)), table_.model.free[i].lower, table_.model.free[i].upper);
-  };
-  within(placement_number(table_.model), middle_step, u[1]);
-  within(scatter_number(table_.model), scatter_step, u[2]);
-  return x;
-}
-
 std::vector<Interval> TableSearch::seen_within_chance(const TableFit& fit) const {
   const std::size_t n = overturned_.size();
   const double chance = n > 1 ? gsl_cdf_tdist_Pinv(0.975, static_cast<double>(n - 1)) : 0;
@@ -283,14 +233,14 @@ std::vector<Interval> TableSearch::seen_within_chance(const TableFit& fit) const
   return range;
 }
 
-std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std::vector<Interval>& known) const {
+std::vector<Interval> TableSearch::within_chance(const TableFit& fit) const {
   std::vector<Interval> range = seen_within_chance(fit);
   // first, last: is it open where the table ends? out: the ends if not.
   const auto widen = [&](std::size_t i, bool first, bool last, const Interval& out) {
     const Free& free = table_.model.free[i];
-    const Interval end = known.empty() ? Interval{free.lower, free.upper} : known[i], open = range[i];
-    range[i] = {std::clamp(first ? end.lower : out.lower, free.lower, std::max(free.lower, open.lower)),
-                std::clamp(last ? end.upper : out.upper, std::min(free.upper, open.upper), free.upper)};
+    const Interval open = range[i];
+    range[i] = {std::clamp(first ? free.lower : out.lower, free.lower, std::max(free.lower, open.lower)),
+                std::clamp(last ? free.upper : out.upper, std::min(free.upper, open.upper), free.upper)};
     range[i] = {std::min(fit.x[i], range[i].lower), std::max(fit.x[i], range[i].upper)};
   };
   const auto to_next_row = [&](int number, double first, double last, double step) {
@@ -324,65 +274,6 @@ std::vector<Interval> TableSearch::within_chance(const TableFit& fit, const std:
     widen(i, first, last, {first ? 0 : below[further - 1], last ? 0 : above[further - 1]});
   }
   return range;
-}
-
-Index TableSearch::rows_from(Index first) const {
-  return std::clamp<Index>(static_cast<Index>(rows_.size()) - first, 0, rows_at_once);
-}
-
-MatrixXf TableSearch::squares(Index first, const MatrixXf& outcomes, const std::vector<Index>& tests) const {
-  using Rows = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::Map<const Rows> all(probability_.data() + first * outcomes.rows(), rows_from(first), outcomes.rows());
-  const MatrixXf p = all(Eigen::all, tests), y = outcomes(tests, Eigen::all);
-  MatrixXf square = -2 * p * y;
-  square.colwise() += p.rowwise().squaredNorm();
-  square.rowwise() += y.colwise().sum();
-  return square;
-}
-
-VectorXf TableSearch::least_squares(const MatrixXf& outcomes) const {
-  std::vector<Index> tests(static_cast<std::size_t>(outcomes.rows()));
-  std::iota(tests.begin(), tests.end(), 0);
-  VectorXf least = VectorXf::Constant(outcomes.cols(), std::numeric_limits<float>::infinity());
-  for (Index first = 0; rows_from(first) > 0; first += rows_at_once)
-    least = least.cwiseMin(squares(first, outcomes, tests).colwise().minCoeff().transpose());
-  return least;
-}
-
-// The least of all but a fold is sought in what all tests make, less what the fold does.
-VectorXf TableSearch::left_out_squares(const MatrixXf& outcomes) const {
-  const Index sets = outcomes.cols();
-  std::vector<Index> all(static_cast<std::size_t>(outcomes.rows()));
-  std::iota(all.begin(), all.end(), 0);
-  std::vector<std::vector<Index>> folds;
-  for (const auto fold = fold_of(all.size()); const Index t : all) {
-    const std::size_t f = fold[static_cast<std::size_t>(t)];
-    folds.resize(std::max(folds.size(), f + 1));
-    folds[f].push_back(t);
-  }
-  const auto count = static_cast<Index>(folds.size());
-  MatrixXf least = MatrixXf::Constant(count, sets, std::numeric_limits<float>::infinity());
-  Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic> row = decltype(row)::Zero(count, sets);
-  for (Index first = 0; rows_from(first) > 0; first += rows_at_once) {
-    const MatrixXf whole = squares(first, outcomes, all);
-    for (Index f = 0; f < count; ++f) {
-      const MatrixXf others = whole - squares(first, outcomes, folds[static_cast<std::size_t>(f)]);
-      const Eigen::RowVectorXf lowest = others.colwise().minCoeff();
-      for (Index s = 0; s < sets; ++s) {
-        if (lowest[s] >= least(f, s)) continue;
-        least(f, s) = others.col(s).minCoeff(&row(f, s));
-        row(f, s) += first;
-      }
-    }
-  }
-  VectorXf sum = VectorXf::Zero(sets);
-  for (Index f = 0; f < count; ++f)
-    for (Index s = 0; s < sets; ++s)
-      for (const Index t : folds[static_cast<std::size_t>(f)]) {
-        const float p = probability_[static_cast<std::size_t>(row(f, s) * outcomes.rows() + t)];
-        sum[s] += (p - outcomes(t, s)) * (p - outcomes(t, s));
-      }
-  return sum;
 }
 
 std::vector<double> TableSearch::scores() const {

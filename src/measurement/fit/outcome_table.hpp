@@ -15,6 +15,14 @@ struct TablePoint {
   Values x;                                  // of the free numbers; those of the placements are of no account
   bool plain = false;                        // of the model without its last effect
   std::vector<std::uint64_t> outcomes = {};  // of the tests of the table; empty: not yet computed
+  bool of_box = false;                       // one of those of OutcomeTable::boxes
+};
+
+// From which so many points were drawn, evenly: the ranges of these numbers.
+struct PointBox {
+  std::vector<Free> range;
+  std::vector<std::size_t> numbers;
+  std::size_t count = 0;
 };
 
 struct OutcomeTable {
@@ -22,6 +30,7 @@ struct OutcomeTable {
   std::vector<std::size_t> tests;
   Places places = {};
   std::vector<TablePoint> points = {};
+  std::vector<PointBox> boxes = {};
 };
 
 // Adds points of the fit without the effect, to all tests and with folds left out, with the effect at nothing: with it no
@@ -51,19 +60,17 @@ class TableSearch {
   // Of all points, or of the plain ones alone. Keeps a reference to the table.
   TableSearch(const Bench&, const OutcomeTable&, bool plain_only = false);
 
-  // Least mean score with these weights of the tests; all alike where empty. Of rows with the same score, which may be many where few tests
-  // say little, the one at that share of them.
-  TableFit best(const std::vector<double>& weight = {}, double among = 0) const;
-  // Logarithm of the likelihood of each row, all tests alike. Where the fit misses the tests by more than its own probabilities make it, that says so
-  // much less.
-  std::vector<double> ln_likelihoods(const TableFit&) const;
-  // Middle and scatter at a point as they may be: its rows by these (ln scatter and ln middle are even before), and within a row's cell
-  // anywhere. u: three uniform numbers.
-  Values as_likely(std::size_t point, const std::vector<double>& ln_likelihoods, const std::array<double, 3>& u) const;
+  // Least mean score with these weights of the tests; all alike where empty.
+  TableFit best(const std::vector<double>& weight = {}) const;
   // Of each set of outcomes (a column, 0 or 1 of each test): the least sum of squares of the rows, and that of tests left out in turn (fold_of),
   // by the rows that are least in the others.
   Eigen::VectorXf least_squares(const Eigen::MatrixXf& outcomes) const;
   Eigen::VectorXf left_out_squares(const Eigen::MatrixXf& outcomes) const;
+  // The same rows of least squares, and how many tests they expect to overturn.
+  struct SetFits {
+    Eigen::VectorXf squares, expected;
+  };
+  SetFits fits_to(const Eigen::MatrixXf& outcomes) const;
   // Least score of each point of the table over middle and scatter, all tests alike; infinite where it was left out.
   std::vector<double> scores() const;
   // Of each number, from all points whose scores are worse than those of the fit by no more than chance: by their paired
@@ -71,9 +78,8 @@ class TableSearch {
   std::vector<Interval> seen_within_chance(const TableFit&) const;
   // Out to what is certainly worse. Middle and scatter: to the next row.
   // The n points of the table spread over d other numbers, so that a slab that they are sure to have seen from all sides holds
-  // n^(1-1/d) of them: as many points further. What is open where the table ends is open as far as is known (of each number;
-  // empty: to the end of its range).
-  std::vector<Interval> within_chance(const TableFit&, const std::vector<Interval>& known = {}) const;
+  // n^(1-1/d) of them: as many points further. What is open where the table ends is open to the end of its range.
+  std::vector<Interval> within_chance(const TableFit&) const;
   // Of each test, at a point with the middle and scatter of x.
   std::vector<double> probabilities(std::size_t point, const Values& x) const;
 

@@ -220,6 +220,11 @@ Interval Posterior::interval(std::size_t number, double level, std::optional<dou
 }
 
 Interval interval_of(const Posterior& open, const ModelFit& fit, std::size_t number, double level) {
+  if (!fit.draws
+           .empty()) {  // of rows that miss outcomes by as much the fit is one: it says nothing of where the others lie
+    const Interval drawn = open.interval(number, level);
+    return {std::min(drawn.lower, fit.x[number]), std::max(drawn.upper, fit.x[number])};
+  }
   const bool allowed = fit.evaluations > 0 || open.better.empty();
   return open.interval(number, level, allowed ? std::optional(fit.x[number]) : std::nullopt);
 }
@@ -247,7 +252,7 @@ Posterior posterior(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
       out = of_peaks(bench, fit, jobs);
       break;
     case Kind::outcome:
-      out.of_mean = fit.resampled;
+      out.of_mean = fit.draws;
       break;
   }
   leave_the_mean(fit, out);
@@ -272,7 +277,7 @@ Posterior open_numbers(const Bench& bench, ModelFit& fit, const Jobs& jobs) {
       fit = std::move(from_there);
     open = posterior(bench, fit, jobs);
   }
-  if (kind_of_set(bench) != Kind::outcome) take_intervals(open, fit);
+  take_intervals(open, fit);
   return open;
 }
 

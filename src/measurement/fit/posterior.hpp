@@ -16,7 +16,7 @@
 //
 // Peaks: G is the sum of the tests' scores, s^2 = G(fit)/(n - p), nu = n - p, of the n tests whose peaks tell by how much the model is off.
 // How far the slips of another test lie beside the model's is what the sensor's noise leaves of the scatter of ln(measured/model).
-// Outcomes: the fits to resampled tests.
+// Outcomes: outcome_draws.hpp.
 //
 // Drawn by importance: points from a Student's density with five degrees of freedom, and one in ten from anywhere; the density is
 // fitted to their weights and drawn from again, until three in ten count and none of its tails is needed. Samples that the floor's

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t bins = 10;
-constexpr double half_window_s = 0.03;  // of the smoothing that tells speed and direction
+constexpr double half_smoothing_s = 0.03;  // of the smoothing that tells speed and direction
 
 ChannelError channel_error(Channel channel, double noise, const std::vector<double>& measured,
                            const std::vector<double>& model) {
@@ -56,8 +56,8 @@ void add_samples(const Bench& bench, const TestComparison& c, std::vector<Sample
   const Test& test = bench.test(c.test);
   const bool slides = !test.slip_m.empty() && bench.noise(Channel::slip) > 0;
   if (!slides && (test.rotation_rad.empty() || bench.noise(Channel::rotation) <= 0)) return;
-  const Smooth motion = slides ? smooth(test.slip_m, test.dt_s, half_window_s) : Smooth{};
-  const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_window_s);
+  const Smooth motion = slides ? smooth(test.slip_m, test.dt_s, half_smoothing_s) : Smooth{};
+  const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_smoothing_s);
   const std::vector<Phase> phase = phases(bench, test);
   const auto lag = std::max<std::size_t>(1, static_cast<std::size_t>(0.1 / test.dt_s));
   const auto missed = [&](Channel channel, std::size_t k) {
@@ -173,8 +173,8 @@ std::vector<Phase> phases(const Bench& bench, const Test& test) {
   const bool slides = !test.slip_m.empty();
   const std::size_t n = std::max(test.slip_m.size(), test.rotation_rad.size());
   const auto near = std::max<std::size_t>(1, static_cast<std::size_t>(0.1 / test.dt_s));
-  const Smooth motion = slides ? smooth(test.slip_m, test.dt_s, half_window_s) : Smooth{};
-  const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_window_s);
+  const Smooth motion = slides ? smooth(test.slip_m, test.dt_s, half_smoothing_s) : Smooth{};
+  const double least = 4 * bench.noise(Channel::slip) * rate_noise(test.dt_s, half_smoothing_s);
   std::vector<Phase> phase(n, Phase::stuck);
   std::size_t onset = n, last_moving = 0, impact = n, last_stuck_before = 0;
   double last_direction = 0, last_side = 0;
@@ -225,8 +225,10 @@ TestComparison compare_test(const Bench& bench, std::size_t i, const ModelSpec& 
 }
 
 Comparison compare(const Bench& bench, const ModelSpec& model, std::span<const double> x,
-                   std::vector<TestComparison> tests, const Quality& quality) {
+                   std::vector<TestComparison> tests, const Quality& quality,
+                   const std::optional<OutcomeMisfit>& misfit) {
   Comparison comparison;
+  comparison.misfit = misfit;
   comparison.tests = std::move(tests);
   comparison.worst = worst_histories(bench, comparison.tests);
   comparison.calibration = tables(bench, comparison.tests, Role::calibration);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "measurement/fit/outcome_misfit.hpp"
 #include "measurement/laboratory/quality.hpp"
 #include "measurement/predict/score.hpp"
 
@@ -28,6 +29,8 @@ inline constexpr double drowned = 5;
 struct TestComparison {
   std::size_t test = 0;
   TestError error = {};
+  Values by_draw =
+      {};  // outcomes: probabilities by each draw of the numbers, of which that of the error is the mean; or none
   // Histories only, else nan: explained_error(), expected_error(), and what the floor may have done to the history between its readings, root
   // mean square [noise units]: at most so much, of a floor that is not smooth there.
   double explained = 0, expected = 0, unread = 0;
@@ -51,6 +54,7 @@ struct Comparison {
   std::vector<TestComparison> tests;  // of all tests, in the order of the data set
   std::vector<std::size_t> worst;     // positions in `tests`, at most five histories
   std::vector<ErrorTable> calibration, holdout;
+  std::optional<OutcomeMisfit> misfit;  // of calibration tests that say outcomes only, by the model as fitted to them
   std::vector<std::string> findings;
 };
 
@@ -58,7 +62,7 @@ struct Comparison {
 TestComparison compare_test(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x, Spread spread,
                             const Spread& unread = {});
 Comparison compare(const Bench&, const ModelSpec&, std::span<const double> x, std::vector<TestComparison> tests,
-                   const Quality&);
+                   const Quality&, const std::optional<OutcomeMisfit>& misfit = {});
 
 // Mean ln(model/measured) of the peak slips of the tests of one role, and its standard deviation; nan below two. The largest of
 // many readings is larger than the slip by some of their noise: the model's peak is the one that its history would show to the

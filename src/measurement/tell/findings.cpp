@@ -11,7 +11,6 @@
 #include "measurement/laboratory/plausible.hpp"
 #include "measurement/tell/findings_motion.hpp"
 #include "measurement/tell/findings_where.hpp"
-#include "measurement/verdict/diagnose_outcomes.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -234,8 +233,9 @@ class Findings {
 
   void outcomes(const std::vector<const TestComparison*>& all, Role role) {
     std::size_t missed = 0, false_alarms = 0, overturned = 0;
-    double brier = 0, expected = 0;
-    std::vector<TestError> errors;
+    double brier = 0;
+    Values probability;
+    std::vector<bool> fallen;
     std::vector<std::string> sure;
     const auto n = static_cast<double>(all.size());
     for (const TestComparison* t : all) {
@@ -245,9 +245,9 @@ class Findings {
       overturned += fell;
       missed += says != fell;
       false_alarms += says && !fell;
-      expected += p;
       brier += t->error.score / n;
-      errors.push_back(t->error);
+      probability.push_back(p);
+      fallen.push_back(fell);
       if (t->error.score > 0.81)
         sure.push_back(fmt::format("{} ({:.2f}, {})", bench_.test(t->test).id, p, fell ? "overturned" : "stood"));
     }
@@ -261,22 +261,30 @@ class Findings {
     say("{} of {} {} tests are missed ({:.1f} %): {} that stood were predicted to overturn, {} that overturned to "
         "stand",
         missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
-    const auto [chance, sd] = expected_brier(errors);
-    const double spread = std::sqrt(chance * n);
-    const bool other_count = std::abs(expected - static_cast<double>(overturned)) > 2 * spread;
-    say("the Brier score of the {} tests is {:.4f}; were the model's probabilities right, chance alone would make "
+    const bool fitted = role == Role::calibration && c_.misfit;
+    const OutcomeMisfit misfit = fitted ? *c_.misfit : outcome_misfit(probability, fallen, by_draw(all));
+    say("the Brier score of the {} tests is {:.4f}{}; were the model's probabilities right, chance alone would make "
         "{:.4f} "
         "+- {:.4f}: {}",
-        whose, brier, chance, sd,
-        surer_than_it_may_be(errors) ? "the model is surer than it may be, something is missing"
-        : brier < chance - 2 * sd    ? "the model is less sure than it might be"
-        : other_count                ? "chance explains that score, but not how many overturned"
-                                     : "chance explains what is missed");
-    if (other_count)
-      say("{} of the {} tests overturned where the model expects {:.0f} +- {:.0f}: it is too {}", overturned, whose,
-          expected, spread, expected > static_cast<double>(overturned) ? "unstable" : "stable");
+        whose, brier, fitted ? fmt::format(" ({:.4f} as fitted)", misfit.score) : "", misfit.usual_score,
+        misfit.score_scatter,
+        misfit.surer()         ? "the model is surer than it may be, something is missing"
+        : misfit.other_count() ? "chance explains that score, but not how many overturned: something is missing"
+        : misfit.score < misfit.usual_score - 2 * misfit.score_scatter ? "the model is less sure than it might be"
+                                                                       : "chance explains what is missed");
+    if (misfit.other_count())
+      say("{} of the {} tests overturned where the model expects {:.1f} +- {:.1f}: it is too {}", overturned, whose,
+          misfit.expected, misfit.count_scatter, misfit.expected > misfit.fell ? "unstable" : "stable");
     if (!sure.empty())
       say("against odds of nine to one (probability of overturning in brackets) came out {}", fmt::join(sure, ", "));
+  }
+
+  // Of each draw the probabilities of the tests.
+  static std::vector<Values> by_draw(const std::vector<const TestComparison*>& all) {
+    std::vector<Values> draws(all.front()->by_draw.size());
+    for (std::size_t k = 0; k < draws.size(); ++k)
+      for (const TestComparison* t : all) draws[k].push_back(t->by_draw[k]);
+    return draws;
   }
 
   // Residual slips of the model end on one side of the measured ones, in more tests of any role than chance makes.

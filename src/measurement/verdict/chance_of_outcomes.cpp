@@ -1,7 +1,5 @@
 #include "measurement/verdict/chance_of_outcomes.hpp"
 
-#include "base/random.hpp"
-
 namespace freestand::measurement {
 namespace {
 
@@ -9,17 +7,8 @@ using Eigen::Index;
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
-// What happened in the first column; behind it sets of outcomes as the model would have them.
 MatrixXf outcomes_from(const Bench& bench, const TabulatedFit& model, std::uint64_t stream) {
-  const auto& tests = model.table.tests;
-  MatrixXf y(static_cast<Index>(tests.size()), static_cast<Index>(1 + chance_simulations));
-  for (std::size_t t = 0; t < tests.size(); ++t) {
-    const auto row = static_cast<Index>(t);
-    y(row, 0) = bench.test(tests[t]).peaks.overturned.value_or(false) ? 1 : 0;
-    for (std::uint64_t s = 0; s < chance_simulations; ++s)
-      y(row, static_cast<Index>(1 + s)) = random::uniform(stream, s, t) < model.fit.calibration[t].probability ? 1 : 0;
-  }
-  return y;
+  return outcome_sets(bench, model, stream, chance_simulations);
 }
 
 // Mean scores of the fits of a model to each set; and of tests left out.
@@ -74,11 +63,13 @@ Chance chance_of_lead_of_outcomes(const Bench& bench, const TabulatedFit& best, 
   return chance;
 }
 
-Chance chance_of_misfit_of_outcomes(const Bench& bench, const TabulatedFit& model) {
-  const VectorXf of = scores(bench, model, outcomes_from(bench, model, 27));
-  Chance chance{.question = misfit_question, .about = {}, .observed = of[0]};
-  weigh(chance, in_simulations(of));
-  return chance;
+Chance chance_of_misfit(const OutcomeMisfit& misfit) {
+  return {.question = misfit_question,
+          .about = {},
+          .observed = 1 - misfit.smaller(),
+          .usual = 1 - misfit.reached,
+          .p = misfit.p,
+          .simulations = static_cast<int>(outcome_simulations)};
 }
 
 }  // namespace freestand::measurement

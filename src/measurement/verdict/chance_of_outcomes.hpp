@@ -19,7 +19,7 @@ Chance chance_of_gain_of_outcomes(const std::vector<Eigen::VectorXf>& gains);
 // Can the best be told from a rival? observed: the score of the rival less that of the best.
 Chance chance_of_lead_of_outcomes(const Bench&, const TabulatedFit& best, const TabulatedFit& rival, const Jobs&);
 
-// Is a model enough? observed: its score. A model that is surer than it may be has a larger one than data from itself give it.
-Chance chance_of_misfit_of_outcomes(const Bench&, const TabulatedFit&);
+// Is a model enough (outcome_misfit.hpp)? observed: 1 less the smaller of the two p values of its score and of how many fell.
+Chance chance_of_misfit(const OutcomeMisfit&);
 
 }  // namespace freestand::measurement

@@ -7,7 +7,6 @@
 #include <iterator>
 #include <map>
 
-#include "base/random.hpp"
 #include "measurement/levels.hpp"
 #include "measurement/verdict/chance_of_outcomes.hpp"
 #include "measurement/verdict/outcome_screen.hpp"
@@ -106,8 +105,9 @@ class OutcomeDiagnoser {
     return out_.chances.back().chance();
   }
   bool enough(const Candidate& c) {
-    return is_chance(chance_of_misfit_of_outcomes(bench_, table_of(c)),
-                     c.effects.empty() ? "the model as it is" : label(c));
+    const OutcomeMisfit misfit = outcome_misfit(bench_, table_of(c));
+    misfits_[c.effects] = misfit;
+    return is_chance(chance_of_misfit(misfit), c.effects.empty() ? "the model as it is" : label(c));
   }
 
   // The best candidate of one effect more, if the tests left out are missed by less with it, and any such effect gains more than chance.
@@ -182,14 +182,11 @@ class OutcomeDiagnoser {
   }
 
   void nothing_suffices(const Candidate& chosen) {
-    const Pooled chance = expected_brier(chosen.fit.calibration);
     out_.verdict = Verdict::unknown;
     out_.reason = Reason::none_suffices;
     for (Candidate& c : out_.candidates) c.rival = false;
-    say(
-        fmt::format("even with {} the model is surer than it may be: its Brier score is {:.4f} where chance alone "
-                    "would make {:.4f} +- {:.4f}; something more is missing, and it is no effect of the catalogue",
-                    label(chosen), chosen.fit.score, chance.error, chance.standard_error));
+    say(fmt::format("{} is not enough: {}; something more is missing, and it is no effect of the catalogue",
+                    label(chosen), what_chance_leaves(misfits_.at(chosen.effects))));
   }
 
   void nothing_found() {
@@ -201,7 +198,8 @@ class OutcomeDiagnoser {
     if (!enough(out_.base)) {
       out_.verdict = Verdict::unknown;
       out_.reason = Reason::none_helps;
-      say("the model is surer than it may be: something is missing, and it is no effect of the catalogue");
+      say(fmt::format("the model is not enough: {}; something is missing, and it is no effect of the catalogue",
+                      what_chance_leaves(misfits_.at({}))));
     }
     if (!best) return say("no effect promises to lower the Brier score of the base");
     const Pooled gain = paired_difference(out_.base.fit.left_out, best->fit.left_out);
@@ -256,6 +254,7 @@ class OutcomeDiagnoser {
   TabulatedFit base_;
   std::map<std::vector<std::string>, TabulatedFit> tables_;    // of what was fitted to the end
   std::map<std::vector<std::string>, Eigen::VectorXf> gains_;  // of the same, over what they were joined to
+  std::map<std::vector<std::string>, OutcomeMisfit> misfits_;  // of what was asked whether it is enough
   std::vector<std::string> untried_;
   Diagnosis out_;
 };
@@ -272,22 +271,6 @@ Pooled expected_brier(const std::vector<TestError>& errors) {
   }
   expected.standard_error = std::sqrt(expected.standard_error) / n;
   return expected;
-}
-
-bool surer_than_it_may_be(const std::vector<TestError>& errors) {
-  constexpr std::uint64_t simulations = 2000, stream = 61;
-  double observed = 0;
-  for (const TestError& e : errors) observed += e.score;
-  std::uint64_t as_large = 0;
-  for (std::uint64_t s = 0; s < simulations; ++s) {
-    double sum = 0;
-    for (std::size_t t = 0; t < errors.size(); ++t) {
-      const double p = errors[t].probability;
-      sum += std::pow(random::uniform(stream, s, t) < p ? 1 - p : p, 2);
-    }
-    as_large += sum >= observed - 1e-12;
-  }
-  return static_cast<double>(1 + as_large) <= chance_level * static_cast<double>(1 + simulations);
 }
 
 Diagnosis diagnose_outcomes(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue, const Values& start,

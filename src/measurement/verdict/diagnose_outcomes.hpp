@@ -20,9 +20,4 @@ Diagnosis diagnose_outcomes(const Bench&, const ModelSpec& base, const std::vect
 // it: sqrt(sum p (1 - p) (1 - 2 p)^2)/n.
 Pooled expected_brier(const std::vector<TestError>&);
 
-// Is Brier's score as large as the model's own probabilities make it in one set of twenty at most? Of 2000 sets drawn from them: the
-// sum is skewed where they are near 0 or 1. Then the model lacks something, whoever asks. Without fits to these sets it says so more
-// rarely than chance_of_misfit_of_outcomes().
-bool surer_than_it_may_be(const std::vector<TestError>&);
-
 }  // namespace freestand::measurement
