@@ -58,8 +58,8 @@ std::string used_text(const fs::path& folder) {
   const std::string thrown = finished == 0   ? "starts again"
                              : finished == 1 ? "throws 1 finished block away"
                                              : fmt::format("throws {} finished blocks away", finished);
-  return fmt::format("{} holds an unfinished run (it was interrupted, or is at work): --resume goes on, --overwrite {}", folder.string(),
-                     thrown);
+  return fmt::format("{} holds an unfinished run (it was interrupted, or is at work): --resume goes on, --overwrite {}",
+                     folder.string(), thrown);
 }
 
 // Exported files, as their certificate has them.

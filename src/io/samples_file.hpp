@@ -1,11 +1,12 @@
 // samples.h5: one dataset per column, one row per sample.
 //
-// root attributes: provenance.hpp, format "freestand-samples/2". /samples/sample is their dimension, without values: rows are in the order of the samples' numbers, from 0;
-// /samples/NAME [sample] is float64, int32 or uint8 by the column's kind, in pieces that are shuffled and deflated, with attributes unit and description; outcome
-// carries flag_values and flag_meanings. /motions/name [motion], scale /motions/motion: names of the floor motions,
-// which the column `motion` points to, and beside it [motion] what is kept of them at scale 1, with units;
-// /motions has an attribute fingerprint, of their contents; /motions/period_s is the scale of /motions/sa_mps2 [motion, period_s], spectral accelerations, 5 % damping. From these and
-// its row every intensity of a sample follows.
+// root attributes: provenance.hpp, format "freestand-samples/2". /samples/sample is their dimension, without values: rows
+// are in the order of the samples' numbers, from 0; /samples/NAME [sample] is float64, int32 or uint8 by the column's kind,
+// in pieces that are shuffled and deflated, with attributes unit and description; outcome carries flag_values and
+// flag_meanings. /motions/name [motion], scale /motions/motion: names of the floor motions, which the column `motion`
+// points to, and beside it [motion] what is kept of them at scale 1, with units; /motions has an attribute fingerprint, of
+// their contents; /motions/period_s is the scale of /motions/sa_mps2 [motion, period_s], spectral accelerations, 5 %
+// damping. From these and its row every intensity of a sample follows.
 #pragma once
 
 #include <cstdint>

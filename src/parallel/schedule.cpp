@@ -1,9 +1,7 @@
 #include "parallel/schedule.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <exception>
 #include <functional>
 #include <optional>
 #include <span>
@@ -12,6 +10,7 @@
 
 #include "parallel/node_memory.hpp"
 #include "parallel/requests.hpp"
+#include "parallel/root_counters.hpp"
 #include "parallel/stop.hpp"
 
 namespace freestand::parallel {
@@ -26,59 +25,27 @@ constexpr std::int64_t asks_in_a_block = 64;
 // All ranks together tell what they have counted a thousand times a second.
 constexpr std::chrono::milliseconds pause_per_rank{1};
 
-// Integers in a window of rank 0 that every rank can add to; with one rank, plain integers.
-class SharedCounters {
+// What rank 0 keeps for all: how often the counter of blocks was raised, and what was counted in the blocks that are done.
+class Ledger {
  public:
-  enum Slot : int { tickets, samples, overturned, failed, slots };
+  explicit Ledger(const Communicator& world) : numbers_(world, slots) {}
 
-  explicit SharedCounters(const Communicator& world) {
-    if (world.size() == 1) return;
-    const MPI_Aint bytes = world.is_root() ? slots * static_cast<MPI_Aint>(sizeof(std::int64_t)) : 0;
-    MPI_Win_allocate(bytes, sizeof(std::int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &memory_, &window_);
-    MPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
-    if (world.is_root()) std::fill_n(memory_, static_cast<int>(slots), 0);
-    MPI_Win_sync(window_);
-    world.barrier();
-    MPI_Win_sync(window_);
-  }
-
-  // While an exception flies the others do not come to free the window: main ends them all.
-  ~SharedCounters() {
-    if (window_ == MPI_WIN_NULL || std::uncaught_exceptions() > 0) return;
-    MPI_Win_unlock_all(window_);
-    MPI_Win_free(&window_);
-  }
-  SharedCounters(const SharedCounters&) = delete;
-  SharedCounters& operator=(const SharedCounters&) = delete;
-
-  // The value before.
-  std::int64_t fetch_add(Slot slot, std::int64_t amount) {
-    if (window_ == MPI_WIN_NULL) return std::exchange(local_[slot], local_[slot] + amount);
-    std::int64_t before = 0;
-    MPI_Fetch_and_op(&amount, &before, MPI_INT64_T, 0, slot, MPI_SUM, window_);
-    MPI_Win_flush(0, window_);
-    return before;
-  }
+  std::int64_t next_ticket() { return numbers_.fetch_add(tickets, 1); }
+  void end(std::int64_t blocks) { numbers_.fetch_add(tickets, blocks); }  // more than there are
 
   void add(const Counts& counts) {
-    if (counts.samples) fetch_add(samples, counts.samples);
-    if (counts.overturned) fetch_add(overturned, counts.overturned);
-    if (counts.failed) fetch_add(failed, counts.failed);
+    if (counts.samples) numbers_.fetch_add(samples, counts.samples);
+    if (counts.overturned) numbers_.fetch_add(overturned, counts.overturned);
+    if (counts.failed) numbers_.fetch_add(failed, counts.failed);
   }
-
-  Counts counts() { return {fetch_add(samples, 0), fetch_add(overturned, 0), fetch_add(failed, 0)}; }
-
-  // Any call into MPI lets it answer the other ranks.
-  void serve() const {
-    if (window_ == MPI_WIN_NULL) return;
-    int flag = 0;
-    MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, MPI_COMM_WORLD, &flag, MPI_STATUS_IGNORE);
+  Counts counts() {
+    return {numbers_.fetch_add(samples, 0), numbers_.fetch_add(overturned, 0), numbers_.fetch_add(failed, 0)};
   }
+  void serve() const { numbers_.serve(); }
 
  private:
-  MPI_Win window_ = MPI_WIN_NULL;
-  std::int64_t* memory_ = nullptr;
-  std::array<std::int64_t, slots> local_{};
+  enum Slot : int { tickets, samples, overturned, failed, slots };
+  RootCounters numbers_;
 };
 
 // What this node has taken and none of its ranks has begun: a range that they share, and the one after it. Who takes one of the last blocks of a
@@ -161,12 +128,12 @@ BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, const Taker
 bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& todo, const BlockFunction& compute,
                     Progress* progress) {
   const auto total = static_cast<std::int64_t>(todo.size());
-  SharedCounters counters(world);
+  Ledger ledger(world);
   NodeBlocks node(world);
   auto last = Clock::now();
   const auto look = [&] {
-    counters.serve();
-    if (progress && progress->due()) progress->show(counters.counts());
+    ledger.serve();
+    if (progress && progress->due()) progress->show(ledger.counts());
   };
   const Beat beat = [&] {
     if (!world.is_root() || Clock::now() - last < std::chrono::milliseconds(1)) return;
@@ -177,13 +144,11 @@ bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& 
   Counts told_later;
   auto told = Clock::now();
   const auto tell_counts = [&] {
-    counters.add(std::exchange(told_later, {}));
+    ledger.add(std::exchange(told_later, {}));
     told = Clock::now();
   };
   Words done{0};
-  const auto take = [&] {
-    return blocks_of_ticket(counters.fetch_add(SharedCounters::tickets, 1), total, node.takers());
-  };
+  const auto take = [&] { return blocks_of_ticket(ledger.next_ticket(), total, node.takers()); };
   const auto wait_for_others = [&] {
     if (world.is_root()) look();
     std::this_thread::sleep_for(std::chrono::microseconds(20));
@@ -200,13 +165,13 @@ bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& 
     beat();
   }
   tell_counts();
-  if (stop_requested()) counters.fetch_add(SharedCounters::tickets, total);  // more than there are
+  if (stop_requested()) ledger.end(total);
   if (world.size() > 1)
     wait([](MPI_Request* request) { return MPI_Ibarrier(MPI_COMM_WORLD, request); },
          [&] {
            if (world.is_root()) look();
          });
-  if (progress && world.is_root()) progress->finish(counters.counts());
+  if (progress && world.is_root()) progress->finish(ledger.counts());
   world.sum_in_place(done);
   return done[0] == total;
 }

@@ -14,6 +14,7 @@
 #include "parallel/communicator.hpp"
 #include "parallel/mpi.hpp"
 #include "parallel/node_memory.hpp"
+#include "parallel/root_counters.hpp"
 
 namespace freestand::parallel {
 namespace {
@@ -32,37 +33,11 @@ double seconds(int calls, const std::function<void(int)>& call) {
   return times[3];
 }
 
-class Counter {
- public:
-  explicit Counter(const Communicator& world) {
-    const MPI_Aint bytes = world.is_root() ? sizeof(std::int64_t) : 0;
-    MPI_Win_allocate(bytes, sizeof(std::int64_t), MPI_INFO_NULL, MPI_COMM_WORLD, &memory_, &window_);
-    MPI_Win_lock_all(MPI_MODE_NOCHECK, window_);
-  }
-  ~Counter() {
-    MPI_Win_unlock_all(window_);
-    MPI_Win_free(&window_);
-  }
-  Counter(const Counter&) = delete;
-  Counter& operator=(const Counter&) = delete;
-
-  void raise() {
-    const std::int64_t one = 1;
-    std::int64_t before = 0;
-    MPI_Fetch_and_op(&one, &before, MPI_INT64_T, 0, 0, MPI_SUM, window_);
-    MPI_Win_flush(0, window_);
-  }
-
- private:
-  MPI_Win window_ = MPI_WIN_NULL;
-  std::int64_t* memory_ = nullptr;
-};
-
 // The root answers, and asks too where `together`; what a raise takes the others.
-double raise_seconds(const Communicator& world, Counter& counter, bool together) {
+double raise_seconds(const Communicator& world, RootCounters& counter, bool together) {
   world.barrier();
   double took = 0;
-  if (!world.is_root() || together) took = seconds(2000, [&](int) { counter.raise(); });
+  if (!world.is_root() || together) took = seconds(2000, [&](int) { counter.fetch_add(0, 1); });
   MPI_Barrier(MPI_COMM_WORLD);
   MPI_Bcast(&took, 1, MPI_DOUBLE, world.size() - 1, MPI_COMM_WORLD);
   return took;
@@ -70,7 +45,7 @@ double raise_seconds(const Communicator& world, Counter& counter, bool together)
 
 void measure(const Communicator& world, const fs::path& folder) {
   if (world.size() > 1) {
-    Counter counter(world);
+    RootCounters counter(world, 1);
     const double alone = raise_seconds(world, counter, false), together = raise_seconds(world, counter, true);
     world.on_root([&] {
       fmt::print("a raise of the counter: {:.2f} us where one rank asks, {:.2f} us where {} ask\n", 1e6 * alone,

@@ -7,10 +7,6 @@ using Eigen::Index;
 using Eigen::MatrixXf;
 using Eigen::VectorXf;
 
-MatrixXf outcomes_from(const Bench& bench, const TabulatedFit& model, std::uint64_t stream) {
-  return outcome_sets(bench, model, stream, chance_simulations);
-}
-
 // Mean scores of the fits of a model to each set; and of tests left out.
 VectorXf scores(const Bench& bench, const TabulatedFit& model, const MatrixXf& y) {
   return TableSearch(bench, model.table).least_squares(y) / static_cast<float>(y.rows());
@@ -31,7 +27,7 @@ VectorXf leads(const Bench& bench, const TabulatedFit& best, const TabulatedFit&
 
 std::vector<VectorXf> gains_of_outcomes(const Bench& bench, const TabulatedFit& base,
                                         const std::vector<const TabulatedFit*>& tried, const Jobs& jobs) {
-  const MatrixXf y = outcomes_from(bench, base, 24);
+  const MatrixXf y = outcome_sets(bench, base, 24, chance_simulations);
   const VectorXf without = scores_left_out(bench, base, y);
   const auto answers = jobs("what effects gain in outcomes from the base", tried.size(), [&](std::size_t i) {
     const VectorXf with = scores_left_out(bench, *tried[i], y);
@@ -54,7 +50,8 @@ Chance chance_of_gain_of_outcomes(const std::vector<VectorXf>& gains) {
 Chance chance_of_lead_of_outcomes(const Bench& bench, const TabulatedFit& best, const TabulatedFit& rival,
                                   const Jobs& jobs) {
   const auto answers = jobs("whether the lead is chance", 2, [&](std::size_t i) {
-    const VectorXf of = leads(bench, best, rival, outcomes_from(bench, i == 0 ? rival : best, 25 + i));
+    const MatrixXf y = outcome_sets(bench, i == 0 ? rival : best, 25 + i, chance_simulations);
+    const VectorXf of = leads(bench, best, rival, y);
     return Values(of.begin(), of.end());
   });
   Chance chance{.question = lead_question, .about = {}, .observed = answers[0][0]};
