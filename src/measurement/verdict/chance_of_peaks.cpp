@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/random.hpp"
-
 namespace freestand::measurement {
 namespace {
 
@@ -38,9 +36,9 @@ class Ratios {
     return columns;
   }
 
-  // Derivatives in a model's numbers, as an orthonormal basis of what they can make. Peaks jump where a slip more or less is the largest:
-  // differences over a hundredth of the range see the slope beside such jumps.
-  MatrixXd made_by(const ModelFit& fit) const {
+  // Derivatives in a model's numbers. Peaks jump where a slip more or less is the largest: differences over a hundredth of the range see
+  // the slope beside such jumps.
+  MatrixXd slopes(const ModelFit& fit) const {
     constexpr double step = 1e-2;
     std::vector<Tried> points;
     for (std::size_t k = 0; k < fit.x.size(); ++k)
@@ -51,78 +49,71 @@ class Ratios {
     const MatrixXd at = of(points);
     MatrixXd slopes(count(), static_cast<Index>(fit.x.size()));
     for (Index k = 0; k < slopes.cols(); ++k) slopes.col(k) = (at.col(2 * k + 1) - at.col(2 * k)) / (2 * step);
-    return basis(slopes);
+    return slopes;
+  }
+
+  PeakScatter scatter_about(const ModelFit& fit) const {
+    ModelSpec model = fit.model;
+    model.friction_factor = {.free = static_cast<int>(fit.x.size())};
+    std::vector<Tried> points;
+    for (const double shift : PeakScatter::shifts()) {
+      points.push_back({&model, fit.x});
+      points.back().x.push_back(std::exp(shift));
+    }
+    const MatrixXd at = of(points);
+    const VectorXd as_fitted = at.col(at.cols() / 2);
+    return {-as_fitted, at.colwise() - as_fitted, peaks_, fit.x.size()};
+  }
+  // The fit moved to the least squares in units of the scatter about it, by Gauss and Newton's steps of at most a quarter of the box. A
+  // friction that was fitted as if all tests scattered alike lies elsewhere, and its own squares would look like an effect.
+  ModelFit moved(ModelFit fit) const {
+    constexpr int steps = 3;
+    for (int step = 0; step < steps && !fit.x.empty(); ++step) {
+      const PeakScatter scatter = scatter_about(fit);
+      const VectorXd off = scatter.weighed(of({{&fit.model, fit.x}}));
+      const VectorXd by = scatter.weighed(slopes(fit)).colPivHouseholderQr().solve(-off);
+      Values x = fit.x;
+      for (std::size_t k = 0; k < x.size(); ++k) {
+        const Free& free = fit.model.free[k];
+        x[k] = from_unit(free, to_unit(free, x[k]) + std::clamp(by[static_cast<Index>(k)], -0.25, 0.25));
+      }
+      if (scatter.weighed(of({{&fit.model, x}})).norm() >= off.norm()) break;
+      fit.x = x;
+    }
+    return fit;
   }
   Index count() const { return std::accumulate(peaks_.begin(), peaks_.end(), Index{0}); }
 
-  // How peaks stray from a model where they are off by these.
-  struct Straying {
-    VectorXd off;
-    TellingTests telling;
-    double together = 1;  // share of the variance that the peaks of one test have in common
-  };
-  Straying straying(const VectorXd& off) const {
-    Straying s{.off = off, .telling = {}};
-    double square = 0, within = 0, peaks = 0, pairs = 0;
-    for_each_test([&](std::size_t, Index at, Index all) {
-      const VectorXd of_test = off.segment(at, all);
-      s.telling.add({of_test.data(), static_cast<std::size_t>(all)});
-      const auto n = static_cast<double>((of_test.array() != 0).count());
-      const double mean = n > 0 ? of_test.sum() / n : 0;
-      peaks += n, square += static_cast<double>(all) * of_test.squaredNorm();
-      if (n < 2) return;
-      pairs += n - 1;
-      within += static_cast<double>(all) * (of_test.squaredNorm() - n * mean * mean);
-    });
-    if (pairs > 0 && square > 0) s.together = std::clamp(1 - within / pairs / (square / peaks), 0.0, 1.0);
-    return s;
-  }
-
-  // One normal deviate a test, and one a peak.
-  VectorXd noise(std::uint64_t s, const Straying& how) const {
-    VectorXd e = VectorXd::Zero(count());
-    const double common = std::sqrt(how.together), own = std::sqrt(1 - how.together);
-    for_each_test([&](std::size_t t, Index at, Index all) {
-      const double of_test = random::standard_normal(23, s, t);
-      for (Index k = at; k < at + all; ++k)
-        if (how.off[k] != 0)
-          e[k] =
-              (common * of_test + (own > 0 ? own * random::standard_normal(24, s, static_cast<std::uint64_t>(k)) : 0)) /
-              std::sqrt(static_cast<double>(all));
-    });
-    return e;
-  }
-
  private:
-  // use(test, place of its first peak, its peaks).
-  template <class Use>
-  void for_each_test(Use&& use) const {
-    Index at = 0;
-    for (std::size_t t = 0; t < peaks_.size(); at += peaks_[t++]) use(t, at, peaks_[t]);
-  }
-  static MatrixXd basis(const MatrixXd& columns) {
-    if (columns.cols() == 0) return columns;
-    const Eigen::ColPivHouseholderQR<MatrixXd> solved(columns);
-    return MatrixXd(solved.householderQ() * MatrixXd::Identity(columns.rows(), columns.cols())).leftCols(solved.rank());
-  }
-
   const Bench& bench_;
   const Jobs& jobs_;
   std::vector<std::size_t> tests_;
   std::vector<Index> peaks_;  // how many each of them tells
 };
 
+// An orthonormal basis of what columns can make, and what of y is beyond it.
+MatrixXd basis(const MatrixXd& columns) {
+  if (columns.cols() == 0) return columns;
+  const Eigen::ColPivHouseholderQR<MatrixXd> solved(columns);
+  return MatrixXd(solved.householderQ() * MatrixXd::Identity(columns.rows(), columns.cols())).leftCols(solved.rank());
+}
 VectorXd beyond(const MatrixXd& basis, const VectorXd& y) { return y - basis * (basis.transpose() * y); }
 
 }  // namespace
 
-Chance chance_of_gain_of_peaks(const Bench& bench, const ModelFit& base, const std::vector<const ModelFit*>& tried,
+PeakScatter scatter_of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
+  const Ratios ratios(bench, jobs);
+  return ratios.scatter_about(ratios.moved(fit));
+}
+
+Chance chance_of_gain_of_peaks(const Bench& bench, const ModelFit& fitted, const std::vector<const ModelFit*>& tried,
                                const Jobs& jobs) {
   const Ratios ratios(bench, jobs);
+  const ModelFit base = ratios.moved(fitted);
+  const PeakScatter scatter = ratios.scatter_about(base);
   std::vector<Tried> points = at_strengths(base, tried);
   points.insert(points.begin(), {&base.model, base.x});
-  const MatrixXd at = ratios.of(points), own = ratios.made_by(base);
-  const VectorXd measured = -at.col(0);  // what a change would have to make
+  const MatrixXd at = scatter.weighed(ratios.of(points)), own = basis(scatter.weighed(ratios.slopes(base)));
   std::vector<VectorXd> directions;
   for (Index k = 1; k < at.cols(); ++k) {
     const VectorXd change = at.col(k) - at.col(0), left = beyond(own, change);
@@ -134,31 +125,28 @@ Chance chance_of_gain_of_peaks(const Bench& bench, const ModelFit& base, const s
     for (const VectorXd& d : directions) most = std::max(most, d.dot(left));
     return left.squaredNorm() > 0 ? most * most / left.squaredNorm() : 0;
   };
-  Chance chance{.question = help_question, .about = {}, .observed = largest_share(measured)};
-  const auto how = ratios.straying(measured);
-  weigh(chance, [&](std::uint64_t s) { return largest_share(ratios.noise(s, how)); });
+  // What a change would have to make.
+  Chance chance{.question = help_question, .about = {}, .observed = largest_share(-at.col(0))};
+  weigh(chance, [&](std::uint64_t s) { return largest_share(scatter.weighed(scatter.draw(s))); });
   return chance;
 }
 
-Chance chance_of_lead_of_peaks(const Bench& bench, const ModelFit& best, const ModelFit& rival, const Jobs& jobs) {
+// y, logarithms of peaks over those of the best as fitted, in units of how they scatter about the rival.
+Chance chance_of_lead_of_peaks(const Bench& bench, const ModelFit& leader, const ModelFit& other, const Jobs& jobs) {
   const Ratios ratios(bench, jobs);
-  const MatrixXd at = ratios.of({{&best.model, best.x}, {&rival.model, rival.x}});
-  const MatrixXd of_best = ratios.made_by(best), of_rival = ratios.made_by(rival);
+  const ModelFit best = ratios.moved(leader), rival = ratios.moved(other);
+  const PeakScatter about_best = ratios.scatter_about(best), about_rival = ratios.scatter_about(rival);
+  const MatrixXd at = about_rival.weighed(ratios.of({{&best.model, best.x}, {&rival.model, rival.x}}));
+  const MatrixXd of_best = basis(about_rival.weighed(ratios.slopes(best))),
+                 of_rival = basis(about_rival.weighed(ratios.slopes(rival)));
   const VectorXd apart = at.col(1) - at.col(0);  // rival less best
-  // y: ln of the peaks, over those of the best as fitted.
   const auto lead = [&](const VectorXd& y) {
     const double a = beyond(of_best, y).squaredNorm(), b = beyond(of_rival, y - apart).squaredNorm();
     return b > 0 ? 1 - a / b : 0;
   };
-  const auto scatter = [](const MatrixXd& numbers, const Ratios::Straying& how) {
-    const double n = how.telling.count(), freedom = std::max(n - static_cast<double>(numbers.cols()), 1.0);
-    return n > 0 ? std::sqrt(beyond(numbers, how.off).squaredNorm() / (freedom * how.telling.shares / n)) : 0;
-  };
-  const auto from_best = ratios.straying(at.col(0)), from_rival = ratios.straying(at.col(1));
-  const double of_best_itself = scatter(of_best, from_best), of_rival_itself = scatter(of_rival, from_rival);
   Chance chance{.question = lead_question, .about = {}, .observed = lead(-at.col(0))};
-  weigh(chance, [&](std::uint64_t s) { return lead(apart + of_rival_itself * ratios.noise(s, from_rival)); });
-  weigh_power(chance, [&](std::uint64_t s) { return lead(of_best_itself * ratios.noise(s, from_best)); });
+  weigh(chance, [&](std::uint64_t s) { return lead(apart + about_rival.weighed(about_rival.draw(s))); });
+  weigh_power(chance, [&](std::uint64_t s) { return lead(about_rival.weighed(about_best.draw(s))); });
   if (chance.observed <= 0) chance.p = 1;  // no lead
   return chance;
 }

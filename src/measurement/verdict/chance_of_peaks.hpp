@@ -1,11 +1,14 @@
-// chance.hpp for tests that say their peaks alone. How far a peak strays is not known beforehand: what counts is by which share the
-// sum S of the squared ln ratios falls, and data are made from a model with its own scatter, the peaks of one test astray
-// together as far as those that were measured are. Peaks that are 0 in both, or of what fell in both, stray in no data.
+// chance.hpp for tests that say their peaks alone. How far a peak strays is not known beforehand: what counts is by which share the sum S
+// of the squared ln ratios falls, each in units of how such peaks scatter (fit/peak_scatter.hpp), and data are made from a model with that scatter.
 #pragma once
 
+#include "measurement/fit/peak_scatter.hpp"
 #include "measurement/verdict/chance.hpp"
 
 namespace freestand::measurement {
+
+// How the peaks of the calibration tests scatter about a model.
+PeakScatter scatter_of_peaks(const Bench&, const ModelFit&, const Jobs&);
 
 // Does any effect help? observed: the largest share of S that a change of the peaks takes away, which an effect makes at one of many
 // strengths or as it was fitted, beyond what the base's own numbers can.

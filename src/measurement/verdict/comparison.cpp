@@ -24,7 +24,7 @@ std::string joined(const std::vector<std::string>& words) { return fmt::format("
 
 std::string whole(const Candidate& c) { return c.effects.empty() ? "the model as it is" : joined(c.effects); }
 
-const Candidate* Comparison::find_best() {
+const Candidate* CandidateComparison::find_best() {
   std::vector<const Candidate*> order;
   for (const Candidate& c : d_.candidates)
     if (is_judged(c)) order.push_back(&c);
@@ -44,27 +44,27 @@ const Candidate* Comparison::find_best() {
   return best;
 }
 
-const Candidate* Comparison::least_left_out() const {
+const Candidate* CandidateComparison::least_left_out() const {
   const Candidate* best = nullptr;
   for (const Candidate& c : d_.candidates)
     if (fitted_to_the_end(c) && (!best || left_out(c) < left_out(*best))) best = &c;
   return best;
 }
 
-bool Comparison::overtakes(const Candidate& larger, const Candidate& best) {
+bool CandidateComparison::overtakes(const Candidate& larger, const Candidate& best) {
   if (missed_by(larger) >= missed_by(best) || left_out(larger) >= left_out(best)) return false;
   if (histories_ && larger.effects.size() > best.effects.size())
     if (const Candidate* part = best_part(larger); part && another_is_chance(*part)) return false;
   return !by_chance(larger, best);
 }
 
-bool Comparison::complete(const Candidate& c) { return enough(c) && another_is_chance(c); }
+bool CandidateComparison::complete(const Candidate& c) { return enough(c) && another_is_chance(c); }
 
-bool Comparison::another_is_chance(const Candidate& c) {
+bool CandidateComparison::another_is_chance(const Candidate& c) {
   return is_chance(d_, another_question, whole(c), [&] { return ask_.another(c); });
 }
 
-const Candidate* Comparison::best_part(const Candidate& whole) const {
+const Candidate* CandidateComparison::best_part(const Candidate& whole) const {
   const Candidate* best = nullptr;
   for (const Candidate& c : d_.candidates)
     if (c.visible && c.effects.size() + 1 == whole.effects.size() && is_part(c, whole) &&
@@ -73,14 +73,14 @@ const Candidate* Comparison::best_part(const Candidate& whole) const {
   return best;
 }
 
-void Comparison::mark_rivals(const Candidate& best) {
+void CandidateComparison::mark_rivals(const Candidate& best) {
   for (Candidate& c : d_.candidates)
     c.rival = &c == &best || (c.practical && is_judged(c) && better_than_base(c) &&
                               c.effects.size() <= best.effects.size() && as_good(best, c));
   drop_needless();
 }
 
-std::vector<const Candidate*> Comparison::rivals_by_left_out() const {
+std::vector<const Candidate*> CandidateComparison::rivals_by_left_out() const {
   std::vector<const Candidate*> rivals;
   for (const Candidate& c : d_.candidates)
     if (c.rival) rivals.push_back(&c);
@@ -89,53 +89,53 @@ std::vector<const Candidate*> Comparison::rivals_by_left_out() const {
   return rivals;
 }
 
-bool Comparison::enough(const Candidate& c) {
+bool CandidateComparison::enough(const Candidate& c) {
   return !histories_ || leaves_chance(c) || (c.explained <= adequate && !c.laboratory);
 }
 
-bool Comparison::leaves_chance(const Candidate& c) {
+bool CandidateComparison::leaves_chance(const Candidate& c) {
   return is_chance(d_, misfit_question, whole(c), [&] { return ask_.enough(c); });
 }
 
-bool Comparison::only_near_enough(const Candidate& c) { return histories_ && enough(c) && !leaves_chance(c); }
+bool CandidateComparison::only_near_enough(const Candidate& c) { return histories_ && enough(c) && !leaves_chance(c); }
 
-double Comparison::pooled_left_out(const Candidate& c) const {
+double CandidateComparison::pooled_left_out(const Candidate& c) const {
   return pooled(bench_, tests_of(bench_.data(), Role::calibration), c.fit.left_out).error;
 }
 
-double Comparison::left_out(const Candidate& c) const {
+double CandidateComparison::left_out(const Candidate& c) const {
   return d_.friction_scatter > 0 ? c.explained : pooled_left_out(c);
 }
 
-bool Comparison::is_ahead(const Candidate& a, const Candidate& b) const {
+bool CandidateComparison::is_ahead(const Candidate& a, const Candidate& b) const {
   return std::stod(three_digits(left_out(a))) < std::stod(three_digits(left_out(b)));
 }
 
-bool Comparison::is_missed_like_base(const Candidate& c) const {
+bool CandidateComparison::is_missed_like_base(const Candidate& c) const {
   return three_digits(left_out(c)) == three_digits(left_out(d_.base));
 }
 
-bool Comparison::as_good(const Candidate& best, const Candidate& rival) {
+bool CandidateComparison::as_good(const Candidate& best, const Candidate& rival) {
   if (refuted(best, rival)) return false;
   if (is_ahead(rival, best) || missed_by(rival) <= missed_by(best)) return true;
   if (only_near_enough(best) && only_near_enough(rival)) return true;
   return enough(best) && (by_chance(best, rival) || (within_tolerances(best) && enough(rival)));
 }
 
-bool Comparison::within_tolerances(const Candidate& c) const {
+bool CandidateComparison::within_tolerances(const Candidate& c) const {
   const Chance* chance = answer(d_, misfit_question, whole(c));
   return chance && chance->within_tolerances;
 }
 
-bool Comparison::refuted(const Candidate& best, const Candidate& rival) {
+bool CandidateComparison::refuted(const Candidate& best, const Candidate& rival) {
   return histories_ && enough(best) && within_tolerances(best) && !enough(rival);
 }
 
-bool Comparison::by_chance(const Candidate& best, const Candidate& rival) {
+bool CandidateComparison::by_chance(const Candidate& best, const Candidate& rival) {
   return is_chance(d_, lead_question, lead_of(best, rival), [&] { return ask_.lead(best, rival); });
 }
 
-std::string Comparison::why_as_good(const Candidate& best, const Candidate& rival) const {
+std::string CandidateComparison::why_as_good(const Candidate& best, const Candidate& rival) const {
   const std::string name = joined(rival.effects), other = joined(best.effects);
   const Chance* lead = answer(d_, lead_question, lead_of(best, rival));
   if (lead && !lead->apart())
@@ -150,7 +150,7 @@ std::string Comparison::why_as_good(const Candidate& best, const Candidate& riva
   return fmt::format("{} is enough as well if what is stated is off within its tolerances", name);
 }
 
-bool Comparison::better_than_base(const Candidate& best) {
+bool CandidateComparison::better_than_base(const Candidate& best) {
   if (!histories_) return left_out(best) < left_out(d_.base) && help() && !help()->chance();
   const bool foretold = left_out(best) < left_out(d_.base) && best.misfit < d_.base.misfit &&
                         gain_beyond_strays(d_.base.misfits, best.misfits) > 0;
@@ -164,16 +164,16 @@ bool Comparison::better_than_base(const Candidate& best) {
   return (help() ? !help()->chance() : gains) && !helps_by_luck(best);
 }
 
-bool Comparison::helps_by_luck(const Candidate& c) {
+bool CandidateComparison::helps_by_luck(const Candidate& c) {
   return is_chance(d_, steady_question, whole(c), [&] { return ask_.steady(c); });
 }
 
-bool Comparison::was_luck(const Candidate& c) const {
+bool CandidateComparison::was_luck(const Candidate& c) const {
   const Chance* chance = answer(d_, steady_question, whole(c));
   return chance && chance->chance();
 }
 
-bool Comparison::brings_nothing(const Candidate& c) const {
+bool CandidateComparison::brings_nothing(const Candidate& c) const {
   if (!histories_) return false;
   double least = d_.base.misfit_of_fit;
   for (const Candidate& part : d_.candidates)
@@ -181,16 +181,16 @@ bool Comparison::brings_nothing(const Candidate& c) const {
   return least - c.misfit_of_fit < (c.laboratory ? gain_of_one_number() : gain_of_chance());
 }
 
-double Comparison::gain_of_chance() const { return help() ? help()->usual : gain_of_one_number(); }  // none was tried
+double CandidateComparison::gain_of_chance() const { return help() ? help()->usual : gain_of_one_number(); }  // none was tried
 
-double Comparison::gain_beyond_strays(const std::vector<double>& from, const std::vector<double>& to) const {
+double CandidateComparison::gain_beyond_strays(const std::vector<double>& from, const std::vector<double>& to) const {
   double gain = 0;
   for (std::size_t i = 0; i < to.size(); ++i)
     gain += from[i] > to[i] ? std::max(from[i] - to[i] - d_.strays[i], 0.0) : from[i] - to[i];
   return gain;
 }
 
-void Comparison::drop_needless() {
+void CandidateComparison::drop_needless() {
   for (Candidate& c : d_.candidates) {
     if (!c.rival || c.effects.size() < 2) continue;
     for (const Candidate& single : d_.candidates)

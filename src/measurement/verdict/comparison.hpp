@@ -13,9 +13,9 @@ std::string joined(const std::vector<std::string>& words);
 // All effects of a candidate, as a question names them.
 std::string whole(const Candidate&);
 
-class Comparison {
+class CandidateComparison {
  public:
-  Comparison(const Bench& bench, Diagnosis& d, const Questions& ask)
+  CandidateComparison(const Bench& bench, Diagnosis& d, const Questions& ask)
       : bench_(bench), d_(d), ask_(ask), histories_(kind_of_set(bench) == Kind::history) {}
 
  protected:

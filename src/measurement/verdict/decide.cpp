@@ -14,9 +14,9 @@
 namespace freestand::measurement {
 namespace {
 
-class Decision : Comparison {
+class Decision : CandidateComparison {
  public:
-  using Comparison::Comparison;
+  using CandidateComparison::CandidateComparison;
 
   void take() {
     for (Candidate& c : d_.candidates) c.practical = practical(c.fit, d_.base.fit.x.size());

@@ -59,6 +59,7 @@ class Diagnoser : PairSearch {
     search_more();
     decide_all();
     tell_unread_floors();
+    tell_scatter_of_friction();
     tell_deviations();
     if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_))
       if (std::string specimens = friction_of_specimens(bench_, *out_.own_friction); !specimens.empty())
@@ -216,6 +217,17 @@ class Diagnoser : PairSearch {
     std::vector<UnreadFloor> floors;
     for (std::size_t i = 0; i < tests_; ++i) floors.push_back({&judge.test(i), judge.unread()[i], judge.expected()[i]});
     if (std::string told = told_of_unread(floors); !told.empty()) out_.quality.findings.push_back(std::move(told));
+  }
+
+  void tell_scatter_of_friction() {
+    if (kind_of_set(bench_) != Kind::peaks) return;
+    const Candidate& model = out_.best ? out_.candidates[*out_.best] : out_.base;
+    const PeakScatter scatter = scatter_of_peaks(bench_, model.fit, jobs_);
+    if (scatter.p_without_friction() > chance_level) return;
+    out_.quality.findings.push_back(fmt::format(
+        "peaks scatter as if friction differed by {:.2g} % from test to test (standard deviation), and by {:.2g} % "
+        "besides: chances allow for that; measure friction in each test",
+        100 * scatter.of_friction(), 100 * scatter.own()));
   }
 
   // Does a clock of its own in each test take a model to the noise, where all else leaves at least so much?
