@@ -88,19 +88,6 @@ TEST(LawSearch, FindsTheLawThatIsThere) {
   ASSERT_EQ(wavy.sentences.size(), 1u);
 }
 
-// Four tests tell of at most three numbers, the friction among them: what was not looked for is said where nothing is found.
-TEST(LawSearch, LawsOfTooManyNumbersAreNamed) {
-  const dynamics::Effect long_law =
-      friction_law("a + b*u + c*v", {number("a", -1, 1, 0), number("b", -1, 1, 0), number("c", -1, 1, 0)},
-                   [](const At& at, const Parameters& p) { return 1.0 + p[0] + p[1] * at.u + p[2] * at.v; });
-  const Dataset data = measured({});
-  const Bench bench(data, 4);
-  Diagnosis d = unknown(bench);
-  propose_law(bench, test::free_friction(), {&line, &long_law}, {.effort = small_effort, .start = {}}, run_here, d);
-  ASSERT_EQ(d.sentences.size(), 1u);
-  EXPECT_EQ(d.sentences[0], "laws not tried, since they have more numbers than so few tests can fix: a + b*u + c*v");
-}
-
 // By hand: numbers 0.9, 1 and 1.1 with a fold left out scatter by sqrt(2/3 0.02) = 0.1155, Student's t of two degrees of
 // freedom is 4.303.
 TEST(LawBand, IsTheJackknifesOfTheLaw) {

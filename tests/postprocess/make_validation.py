@@ -151,5 +151,6 @@ def diagnosis(folder, verdict="missing", **changes):
              "suggested_motion": suggestion if verdict == "ambiguous" else None,
              "tests_of_chance": [chance("does an effect help", "13 effects", 0.0005)]
              + [chance("is it enough", "the model as it is", 0.0005), chance("does one more help", names[0], 0.4), chance("is its gain luck", names[0], 0.0065)]
+             + [chance("does it foretell what the base leaves open", names[0], 0.012)]
              + [chance("is the lead chance", f"{names[0]} before {name}", p) for name, p in ((names[1], 0.31 if rivals > 1 else 0.012), (names[2], 0.0005))]}
     return write(folder, "diagnosis.json", value | changes)

@@ -8,7 +8,6 @@
 #include "measurement/fit/strides.hpp"
 #include "measurement/laboratory/laboratory.hpp"
 #include "measurement/verdict/decide.hpp"
-#include "measurement/verdict/pairs.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -147,7 +146,7 @@ Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
   const ModelFit& without = candidate.fit;
   std::vector<ModelFit> fits;
   for (const auto* effect : catalogue_)
-    if (goes_with(without.model, *effect) && fewer_numbers_than(tests_, without.model, *effect)) {
+    if (goes_with(without.model, *effect)) {
       ModelFit with{.model = with_effect(without.model, *effect, bench_.reach())};
       with.x = start_at_nothing(without, *effect);
       for (const Candidate& c : out_.candidates)
@@ -181,17 +180,10 @@ const dynamics::Effect& EffectSearch::of_catalogue(const std::string& name) cons
   return **std::find_if(catalogue_.begin(), catalogue_.end(), [&](const auto* effect) { return effect->name == name; });
 }
 
-Catalogue EffectSearch::untried() const {
-  Catalogue effects;
-  for (const auto* effect : catalogue_)
-    if (goes_with(base_, *effect) && !fewer_numbers_than(tests_, base_, *effect)) effects.push_back(effect);
-  return effects;
-}
-
 EffectSearch::Singles EffectSearch::single_effects() {
   std::vector<const dynamics::Effect*> effects;
   for (const auto* effect : catalogue_)
-    if (goes_with(base_, *effect) && fewer_numbers_than(tests_, base_, *effect)) effects.push_back(effect);
+    if (goes_with(base_, *effect) && tests_can_fix(*effect)) effects.push_back(effect);
   const std::vector<bool> seen = visible(out_.base.fit, effects);
   Singles singles;
   const ModelSpec base = narrowed(out_.base.fit);

@@ -75,7 +75,11 @@ class EffectSearch {
   Chance chance_of_another(const Candidate&) const;
   std::vector<Values> starts_of(const dynamics::Effect&, const ModelSpec&) const;
   const dynamics::Effect& of_catalogue(const std::string& name) const;
-  Catalogue untried() const;  // what goes with the base and has more numbers than so few tests can fix
+  // Of peaks each test tells one number, whose others follow from it: with as many numbers as tests nothing could be left out. A history tells
+  // thousands, and what too many numbers gain by chance is computed.
+  bool tests_can_fix(const dynamics::Effect& beside_base) const {
+    return kind_of_set(bench_) == Kind::history || base_.free.size() + fitted_numbers(beside_base) < tests_;
+  }
 
   const Bench& bench_;
   const ModelSpec& base_;

@@ -38,12 +38,6 @@ class LawSearch : PairSearch {
   }
 
   void run() {
-    search();
-    if (diagnosis_.verdict == Verdict::unknown && !diagnosis_.proposal) name_untried();
-  }
-
- private:
-  void search() {
     const Singles forms = single_effects();
     fit(forms);
     // Long histories have many valleys beside the one that the law lies in.
@@ -68,14 +62,7 @@ class LawSearch : PairSearch {
                     three_digits(left_out(form->fit))));
   }
 
-  void name_untried() {
-    std::vector<std::string> laws;
-    for (const auto* form : untried()) laws.push_back(form->law);
-    if (!laws.empty())
-      diagnosis_.sentences.push_back(fmt::format(
-          "laws not tried, since they have more numbers than so few tests can fix: {}", fmt::join(laws, "; ")));
-  }
-
+ private:
   bool beside_scatter() const { return diagnosis_.friction_scatter > 0 && diagnosis_.verdict != Verdict::unknown; }
 
   void withdraw(const Candidate& form) {
