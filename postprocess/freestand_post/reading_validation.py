@@ -231,7 +231,7 @@ def read_comparison(folder):
     return Comparison(
         pathlib.Path(folder), root.value, _name(root, folder), root.texts("effects"), root.text("error_unit", "noise units"),
         root.texts("findings"), tests, _role(root.node("calibration")), _role(root.node("holdout")), parameters,
-        ratio.row("count ratio bias_ln scatter_ln") if ratio else {}, [_history(node) for node in root.nodes("histories")],
+        ratio.row("count ratio bias_ln scatter_ln within_ln", "", "biased") if ratio else {}, [_history(node) for node in root.nodes("histories")],
         {role: [_table(node, columns) for node in tables.nodes(role)] if tables else [] for role in ("calibration", "holdout")},
         _ladder(root), _draws(root, folder), _scatter(root.node("posterior")))
 

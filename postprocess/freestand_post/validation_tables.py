@@ -149,8 +149,6 @@ def _question(row):
         return f"that one more effect gains as much where {_named(row['about'])} is the truth"
     if row["question"] == "is its gain luck":
         return f"that one of all effects tried gains as much as {_named(row['about'])} by the readings which the floor's noise does not turn elsewhere"
-    if row["question"] == "does it foretell what the base leaves open":
-        return f"that {_named(row['about'])}, fitted without a test, foretells it as closely where the model as it is is the truth"
     best, _, rival = row["about"].partition(" before ")
     return f"that {_named(best)} leads {_named(rival)} by as much where {_named(rival)} is the truth"
 

@@ -254,7 +254,9 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
                 {{"count", ratio.count},
                  {"ratio", number_or_null(std::exp(ratio.bias_ln))},
                  {"bias_ln", number_or_null(ratio.bias_ln)},
-                 {"scatter_ln", number_or_null(ratio.scatter_ln)}}}};
+                 {"scatter_ln", number_or_null(ratio.scatter_ln)},
+                 {"within_ln", number_or_null(ratio.within_ln)},
+                 {"biased", ratio.biased()}}}};
   json["tests"] = Json::array();
   for (std::size_t i = 0; i < c.tests.size(); ++i) {
     const TestComparison& t = c.tests[i];

@@ -106,6 +106,22 @@ TEST(AsManyNumbersAsTests, AreTriedOnHistories) {
   for (const Candidate& c : of_peaks.candidates) EXPECT_LT(c.fit.x.size(), 4U) << c.effects.back();
 }
 
+// Four tests, two effects: pairs whose numbers are as many as the tests are told, and not tried.
+TEST(Pairs, WithAsManyNumbersAsTestsAreNotTried) {
+  const auto* tilt = effects::find("floor_tilt");
+  const Dataset data = test::made_dataset(block(0.2, {{effects::find("viscous_drag"), {2.0}}, {tilt, {0.03}}}));
+  const Bench bench(data, 2);
+  DiagnosisOptions options;
+  options.effort = little;
+  const Diagnosis d =
+      diagnose(bench, test::free_friction(), {tilt, effects::find("rate_weakening")}, options, run_here);
+  for (const Candidate& c : d.candidates) EXPECT_LT(c.fit.x.size(), 4U) << c.effects.back();
+  const bool told = std::any_of(d.sentences.begin(), d.sentences.end(), [](const std::string& sentence) {
+    return sentence.find("not tried") == 0 && sentence.find("floor_tilt with rate_weakening") != std::string::npos;
+  });
+  EXPECT_TRUE(told);
+}
+
 // Friction in waves, which no three of these effects explain: the best pair is not enough, no third effect makes it better, and the search
 // ends all the same. Each combination is a candidate once.
 TEST(Pairs, SearchEndsWhereNoThirdEffectMakesTheBestPairBetter) {

@@ -82,7 +82,7 @@ def peaks(folder, ratio=0.2, name="bench", stuck=0, stood=0):
     return comparison(folder, name=name, error_unit="ln ratio", tests=found, histories=[], holdout=None,
                       error_tables={"calibration": [], "holdout": []},
                       calibration={"error_noise_units": None, "error_relative": 0.8, "error": 1.6, "error_expected": None, "tests": 9},
-                      peak_ratio={"count": 9, "ratio": ratio, "bias_ln": float(np.log(ratio)), "scatter_ln": 0.3})
+                      peak_ratio={"count": 9, "ratio": ratio, "bias_ln": float(np.log(ratio)), "scatter_ln": 0.3, "within_ln": 0.23, "biased": abs(float(np.log(ratio))) > 0.23})
 
 
 def outcomes(folder, intensity=False, number=40):
@@ -151,6 +151,5 @@ def diagnosis(folder, verdict="missing", **changes):
              "suggested_motion": suggestion if verdict == "ambiguous" else None,
              "tests_of_chance": [chance("does an effect help", "13 effects", 0.0005)]
              + [chance("is it enough", "the model as it is", 0.0005), chance("does one more help", names[0], 0.4), chance("is its gain luck", names[0], 0.0065)]
-             + [chance("does it foretell what the base leaves open", names[0], 0.012)]
              + [chance("is the lead chance", f"{names[0]} before {name}", p) for name, p in ((names[1], 0.31 if rivals > 1 else 0.012), (names[2], 0.0005))]}
     return write(folder, "diagnosis.json", value | changes)

@@ -141,7 +141,6 @@ class ThePage(Temporary):
         self.assertIn("less than 0.0005", page.text)
         self.assertIn("that the model as it is leaves as much where it is the truth", page.text)
         self.assertIn("that one more effect gains as much where rate weakening is the truth", page.text)
-        self.assertIn("that rate weakening, fitted without a test, foretells it as closely where the model as it is is the truth", page.text)
         self.assertIn("that one of all effects tried gains as much as rate weakening by the readings which the floor's noise does not turn elsewhere", page.text)
         self.assertIn("less than 0.0065", page.text)
         self.assertIn("92 %", page.text)

@@ -302,6 +302,10 @@ class Drawn(Temporary):
         stuck = [line for line in axes.get_lines() if line.get_marker() == "v" and line.get_xdata().size]
         self.assertEqual([line.get_xdata().size for line in stuck], [2])
 
+    def test_a_bias_is_what_the_comparison_calls_one(self):
+        for ratio, said in ((0.95, "predicts the peak slip without a bias that these tests show"), (0.5, "times the measured peak slip")):
+            self.assertIn(said, self.draw(make.peaks(self.folder, ratio))["peaks_peak_slip_m"].finding)
+
     def test_specimen_that_stood_still(self):
         (axes,) = self.draw(make.peaks(self.folder, 0.95, stuck=1, stood=2))["peaks_peak_slip_m"].figure.axes
         left = [line for line in axes.get_lines() if line.get_marker() == "<"]

@@ -1,5 +1,7 @@
 #include "measurement/tell/compare.hpp"
 
+#include <gsl/gsl_cdf.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -297,7 +299,13 @@ PeakRatio peak_ratio(const Bench& bench, const std::vector<TestComparison>& test
   for (const double value : ln) ratio.bias_ln += value / n;
   for (const double value : ln) ratio.scatter_ln += std::pow(value - ratio.bias_ln, 2) / (n - 1);
   ratio.scatter_ln = std::sqrt(ratio.scatter_ln);
+  if (ratio.count > 2) ratio.within_ln = gsl_cdf_tdist_Pinv(0.975, n - 1) * ratio.scatter_ln / std::sqrt(n);
   return ratio;
+}
+
+bool PeakRatio::biased() const {
+  const double of_noise = 1.96 * noise_ln / std::sqrt(static_cast<double>(count));
+  return std::abs(bias_ln) > std::max({within_ln, of_noise, 0.03});
 }
 
 }  // namespace freestand::measurement

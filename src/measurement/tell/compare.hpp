@@ -1,6 +1,7 @@
 // The model, as it stands, against every test: how far off, where, and in plain sentences.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,13 +65,17 @@ TestComparison compare_test(const Bench&, std::size_t test, const ModelSpec&, st
 Comparison compare(const Bench&, const ModelSpec&, std::span<const double> x, std::vector<TestComparison> tests,
                    const Quality&, const std::optional<OutcomeMisfit>& misfit = {});
 
-// Mean ln(model/measured) of the peak slips of the tests of one role, and its standard deviation; nan below two. The largest of
-// many readings is larger than the slip by some of their noise: the model's peak is the one that its history would show to the
+// Mean ln(model/measured) of the peak slips of the tests of one role, and its standard deviation; nan below two. within_ln: half of the
+// mean's interval of 95 % (Student's t); infinite below three. The largest of many readings is larger than the slip by some of their noise: the model's peak is the one that its history would show to the
 // sensor. noise_ln: root mean square of the standard deviations that the noise of sensor and floor makes of one. still: tests without a ratio,
 // since the model stands still.
 struct PeakRatio {
   std::size_t count = 0, still = 0;
   double bias_ln = 0, scatter_ln = 0, noise_ln = 0;
+  double within_ln = std::numeric_limits<double>::infinity();
+
+  // Beyond what the tests leave open, what noise makes of them, and the 3 % for which nobody changes a model.
+  bool biased() const;
 };
 PeakRatio peak_ratio(const Bench&, const std::vector<TestComparison>&, std::optional<Role> = {});
 

@@ -197,20 +197,17 @@ class Findings {
     const PeakRatio ratio = peak_ratio(bench_, c_.tests);
     if (ratio.count < 3) return;
     const auto n = static_cast<double>(ratio.count);
-    const double within = gsl_cdf_tdist_Pinv(0.975, n - 1) * ratio.scatter_ln / std::sqrt(n);
     const auto ratio_text = [](double ln) {
       return ln < std::log(0.1) ? three_digits(std::exp(ln)) : fmt::format("{:.2f}", std::exp(ln));
     };
     const std::string middle = fmt::format(
         "{} times the measured ones (geometric mean of {} tests{}; 95 % between {} and {})", ratio_text(ratio.bias_ln),
         ratio.count, ratio.still ? fmt::format(" without {} in which the model stands still", ratio.still) : "",
-        ratio_text(ratio.bias_ln - within), ratio_text(ratio.bias_ln + within));
+        ratio_text(ratio.bias_ln - ratio.within_ln), ratio_text(ratio.bias_ln + ratio.within_ln));
     const bool under = ratio.bias_ln < 0;
     const double factor = std::exp(ratio.scatter_ln);
-    // Beyond what noise makes of them, and by more than anybody would change a model for.
     const double scatter_of_noise = ratio.noise_ln * std::sqrt(gsl_cdf_chisq_Pinv(0.95, n - 1) / (n - 1));
-    if (std::abs(ratio.bias_ln) > std::max(within, 1.96 * ratio.noise_ln / std::sqrt(n)) &&
-        std::abs(ratio.bias_ln) > 0.03)
+    if (ratio.biased())
       say("the model {} the peak slip: predicted ones are {} and scatter by a factor of {:.2f}; its resistance is too "
           "{}",
           under ? "underpredicts" : "overpredicts", middle, factor, under ? "high" : "low");

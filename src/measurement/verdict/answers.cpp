@@ -18,10 +18,9 @@ bool is_chance(Diagnosis& d, const char* question, const std::string& about, con
 }
 
 const Chance* help_of(const Diagnosis& d) {
-  const Chance* help = nullptr;
-  for (const Chance& c : d.chances)
-    if (c.question == help_question || (c.question == foretelling_question && !c.chance())) help = &c;
-  return help;
+  const auto found =
+      std::find_if(d.chances.begin(), d.chances.end(), [](const Chance& c) { return c.question == help_question; });
+  return found == d.chances.end() ? nullptr : &*found;
 }
 
 }  // namespace freestand::measurement

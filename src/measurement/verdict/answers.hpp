@@ -14,7 +14,7 @@ const Chance* answer(const Diagnosis&, const std::string& question, const std::s
 // May chance do it? Asked where it was not yet.
 bool is_chance(Diagnosis&, const char* question, const std::string& about, const std::function<Chance()>& ask);
 
-// Does any effect help? By its gain, or as it foretells tests left out where gains are hidden. Null: that was not asked.
+// Does any effect help? Null: that was not asked.
 const Chance* help_of(const Diagnosis&);
 
 }  // namespace freestand::measurement

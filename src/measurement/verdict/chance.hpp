@@ -17,8 +17,7 @@ namespace freestand::measurement {
 
 inline constexpr const char *help_question = "does an effect help", *lead_question = "is the lead chance",
                             *misfit_question = "is it enough", *another_question = "does one more help",
-                            *steady_question = "is its gain luck",
-                            *foretelling_question = "does it foretell what the base leaves open";
+                            *steady_question = "is its gain luck";
 
 struct Chance {
   std::string question, about;  // one of these, and which effects

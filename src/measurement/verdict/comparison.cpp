@@ -181,9 +181,7 @@ bool CandidateComparison::brings_nothing(const Candidate& c) const {
   return least - c.misfit_of_fit < (c.laboratory ? gain_of_one_number() : gain_of_chance());
 }
 
-double CandidateComparison::gain_of_chance() const {
-  return help() && help()->question == help_question ? help()->usual : gain_of_one_number();
-}
+double CandidateComparison::gain_of_chance() const { return help() ? help()->usual : gain_of_one_number(); }  // none was tried
 
 double CandidateComparison::gain_beyond_strays(const std::vector<double>& from, const std::vector<double>& to) const {
   double gain = 0;

@@ -43,18 +43,10 @@ class Decision : CandidateComparison {
       best = least_left_out();
       nothing_helps(best);
     }
-    tell_what_is_foretold();
     put_in_order(bench_, best, d_);
   }
 
  private:
-  void tell_what_is_foretold() {
-    if (!help() || help()->question != foretelling_question) return;
-    say(fmt::format(
-        "the floor's noise alone turns histories of the model as it is elsewhere, so that a gain says little; but {}, "
-        "fitted without a test, foretells it as closely as data from that model would let it with a chance of {:.2g}",
-        help()->about, help()->p));
-  }
   void say(std::string sentence) { d_.sentences.push_back(std::move(sentence)); }
   std::string scatter_allowed_for() const {
     return d_.friction_scatter > 0 ? fmt::format(" (friction that differs from test to test by {:.2g} % allowed for)",

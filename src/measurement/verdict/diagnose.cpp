@@ -11,8 +11,6 @@
 #include "measurement/fit/starts.hpp"
 #include "measurement/laboratory/laboratory.hpp"
 #include "measurement/noise/unread_floors.hpp"
-#include "measurement/verdict/answers.hpp"
-#include "measurement/verdict/chance_of_foretelling.hpp"
 #include "measurement/verdict/chance_of_peaks.hpp"
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
@@ -95,7 +93,7 @@ class Diagnoser : PairSearch {
   }
 
   void add_laboratory_faults(Singles& singles) {
-    if (kind_of_set(bench_) != Kind::history) return;
+    if (kind_of_set(bench_) != Kind::history || base_.free.size() + 1 >= tests_) return;
     constexpr std::size_t points = 8;
     for (LaboratoryFault& fault : laboratory_faults(bench_, base_, out_.base.fit.x)) {
       Candidate candidate{.effects = {fault.name}, .fit = out_.base.fit, .laboratory = true};
@@ -110,8 +108,10 @@ class Diagnoser : PairSearch {
 
   void name_untried() {
     std::vector<std::string> names;
-    for (const auto* effect : catalogue_)
-      if (goes_with(base_, *effect) && !tests_can_fix(*effect)) names.push_back(effect->name);
+    for (const auto* effect : untried()) names.push_back(effect->name);
+    if (const auto& refused = pairs().refused(); !refused.empty())
+      names.push_back(fmt::format("{} pair{}, as {} with {}", refused.size(), refused.size() == 1 ? "" : "s",
+                                  refused.begin()->first, refused.begin()->second));
     if (!names.empty())
       out_.sentences.push_back(
           fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
@@ -197,7 +197,6 @@ class Diagnoser : PairSearch {
       out_.chances.clear();
       out_.strays = judge.strays();
       if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
-      look_at_what_is_foretold(tried.size());
       if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance()) {
         out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
         look_at_clocks(judge, out_.base, std::min(least_misfit(out_), out_.own_friction->misfit));
@@ -207,16 +206,6 @@ class Diagnoser : PairSearch {
     if (!clocks_at_fault_.empty() || only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
     judge();
     ask();
-  }
-
-  // Where gains are hidden by how the floor's noise alone turns the base's histories elsewhere.
-  void look_at_what_is_foretold(std::size_t tries) {
-    const Candidate& closest = best();
-    if (closest.effects.size() != 1 || closest.laboratory || !help_of(out_) || !help_of(out_)->chance()) return;
-    Chance chance = chance_of_foretelling(bench_, out_.base.fit, closest.fit, tries, jobs_);
-    chance.about = closest.effects[0];
-    if (!chance.chance()) std::fill(out_.strays.begin(), out_.strays.end(), 0);
-    out_.chances.push_back(std::move(chance));
   }
 
   // Said where a floor was read so seldom that this tells more of a history's error than sensors and the floor's noise together: under the

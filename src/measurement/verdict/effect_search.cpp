@@ -146,7 +146,7 @@ Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
   const ModelFit& without = candidate.fit;
   std::vector<ModelFit> fits;
   for (const auto* effect : catalogue_)
-    if (goes_with(without.model, *effect)) {
+    if (goes_with(without.model, *effect) && fewer_numbers_than(tests_, without.model, *effect)) {
       ModelFit with{.model = with_effect(without.model, *effect, bench_.reach())};
       with.x = start_at_nothing(without, *effect);
       for (const Candidate& c : out_.candidates)
@@ -178,6 +178,13 @@ void EffectSearch::judge() {
 
 const dynamics::Effect& EffectSearch::of_catalogue(const std::string& name) const {
   return **std::find_if(catalogue_.begin(), catalogue_.end(), [&](const auto* effect) { return effect->name == name; });
+}
+
+Catalogue EffectSearch::untried() const {
+  Catalogue effects;
+  for (const auto* effect : catalogue_)
+    if (goes_with(base_, *effect) && !tests_can_fix(*effect)) effects.push_back(effect);
+  return effects;
 }
 
 EffectSearch::Singles EffectSearch::single_effects() {

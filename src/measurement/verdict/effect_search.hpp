@@ -7,6 +7,7 @@
 
 #include "measurement/laboratory/as_stated.hpp"
 #include "measurement/verdict/diagnose.hpp"
+#include "measurement/verdict/pairs.hpp"
 
 namespace freestand::measurement {
 
@@ -76,10 +77,11 @@ class EffectSearch {
   std::vector<Values> starts_of(const dynamics::Effect&, const ModelSpec&) const;
   const dynamics::Effect& of_catalogue(const std::string& name) const;
   // Of peaks each test tells one number, whose others follow from it: with as many numbers as tests nothing could be left out. A history tells
-  // thousands, and what too many numbers gain by chance is computed.
-  bool tests_can_fix(const dynamics::Effect& beside_base) const {
-    return kind_of_set(bench_) == Kind::history || base_.free.size() + fitted_numbers(beside_base) < tests_;
+  // thousands. (Several effects together have fewer numbers than tests all the same: they would be joined without end.)
+  bool tests_can_fix(const dynamics::Effect& alone) const {
+    return kind_of_set(bench_) == Kind::history || fewer_numbers_than(tests_, base_, alone);
   }
+  Catalogue untried() const;  // what goes with the base and has more numbers than so few tests can fix
 
   const Bench& bench_;
   const ModelSpec& base_;

@@ -42,7 +42,8 @@ bool PairSearch::add_one_more() {
 bool PairSearch::join_others_to(const Candidate& whole) {
   std::vector<const dynamics::Effect*> others;
   for (const auto* effect : catalogue_)
-    if (goes_with(whole.fit.model, *effect)) others.push_back(effect);
+    if (goes_with(whole.fit.model, *effect) && fewer_numbers_than(tests_, whole.fit.model, *effect))
+      others.push_back(effect);
   const std::vector<bool> seen = visible(whole.fit, others);
   std::vector<Candidate> larger;
   std::vector<FitTask> tasks;
@@ -66,10 +67,10 @@ void PairSearch::fit_pairs() {
   for (const Candidate* seed : order) {
     std::vector<const dynamics::Effect*> others;
     for (const auto* effect : catalogue_)
-      if (goes_with(seed->fit.model, *effect)) others.push_back(effect);
+      if (pairs_.may_be(seed->fit.model, seed->effects[0], *effect)) others.push_back(effect);
     const std::vector<bool> seen = visible(seed->fit, others);
     for (std::size_t i = 0; i < others.size(); ++i)
-      if (seen[i] && !tried(seed->effects[0], others[i]->name))
+      if (seen[i] && !pairs_.tried(seed->effects[0], others[i]->name))
         join(seed->effects, seed->fit, *others[i], pairs, tasks);
   }
   finish_pairs(std::move(pairs), tasks);
@@ -113,7 +114,7 @@ bool PairSearch::exchange_in_best_pair() {
     const std::string& name = best_pair.effects[stays];
     std::vector<const dynamics::Effect*> others;
     for (const auto* effect : catalogue_)
-      if (!tried(name, effect->name) && goes_with(part.model, *effect)) others.push_back(effect);
+      if (!pairs_.tried(name, effect->name) && pairs_.may_be(part.model, name, *effect)) others.push_back(effect);
     const std::vector<bool> seen = visible(part, others);
     for (std::size_t i = 0; i < others.size(); ++i)
       if (seen[i]) join({name}, part, *others[i], pairs, tasks);
@@ -125,7 +126,7 @@ bool PairSearch::exchange_in_best_pair() {
 
 void PairSearch::join(const std::vector<std::string>& names, const ModelFit& fit, const dynamics::Effect& other,
                       std::vector<Candidate>& larger, std::vector<FitTask>& tasks) {
-  if (names.size() == 1) tried_.insert(std::minmax(names[0], other.name));
+  if (names.size() == 1) pairs_.add(names[0], other.name);
   larger.push_back({.effects = names, .fit = fit});
   larger.back().effects.push_back(other.name);
   tasks.push_back({.model = with_effect(narrowed(fit), other, bench_.reach())});
@@ -181,7 +182,7 @@ std::vector<FitTask> PairSearch::singles_and_pairs() {
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const ModelSpec single = with_effect(base_, *seen[i], bench_.reach());
     for (std::size_t k = i + 1; k < seen.size(); ++k)
-      if (goes_with(single, *seen[k])) take(with_effect(single, *seen[k], bench_.reach()));
+      if (pairs_.may_be(single, seen[i]->name, *seen[k])) take(with_effect(single, *seen[k], bench_.reach()));
     take(single);
   }
   return tasks;

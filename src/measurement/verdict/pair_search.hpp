@@ -1,19 +1,21 @@
 // Where one effect is not enough: pairs of effects, grown from the best single ones, and where these fail from anywhere.
 #pragma once
 
-#include <set>
-
 #include "measurement/verdict/effect_search.hpp"
+#include "measurement/verdict/pairs.hpp"
 
 namespace freestand::measurement {
 
 class PairSearch : public EffectSearch {
  public:
-  using EffectSearch::EffectSearch;
+  PairSearch(const Bench& bench, const ModelSpec& base, const Catalogue& catalogue, const DiagnosisOptions& options,
+             const Jobs& jobs)
+      : EffectSearch(bench, base, catalogue, options, jobs), pairs_(tests_) {}
 
  protected:
   // Adds candidates of two effects to those of one, where they are wanted, then of three and more, and judges them.
   void search_more();
+  const Pairs& pairs() const { return pairs_; }
   // Not where it is enough once all that is stated was let off within its tolerances.
   bool one_more_wanted(const Candidate&);
   // Each other effect beside those of a candidate. False: none may join, or changes any prediction.
@@ -43,9 +45,7 @@ class PairSearch : public EffectSearch {
   // are joined to, are not those of the pair: two that only do together look useless alone. All once more by strides.
   bool look_again();
 
-  bool tried(const std::string& a, const std::string& b) const { return tried_.count(std::minmax(a, b)) > 0; }
-
-  std::set<std::pair<std::string, std::string>> tried_;  // pairs
+  Pairs pairs_;
   std::vector<std::string> joined_;  // effects that all others were joined to last
 };
 
