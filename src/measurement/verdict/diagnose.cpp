@@ -208,12 +208,16 @@ class Diagnoser : PairSearch {
     ask();
   }
 
+  // The base where nothing helps.
+  const Candidate& named_by_verdict() const {
+    return out_.verdict == Verdict::none || !out_.best ? out_.base : out_.candidates[*out_.best];
+  }
+
   // Said where a floor was read so seldom that this tells more of a history's error than sensors and the floor's noise together: under the
   // model that comes closest, since one that is wrong may fan out where the specimen did not.
   void tell_unread_floors() {
     if (kind_of_set(bench_) != Kind::history || out_.friction_scatter > 0) return;
-    const bool none = out_.verdict == Verdict::none || !out_.best;
-    const Judge judge = judge_of(none ? out_.base.fit : out_.candidates[*out_.best].fit);
+    const Judge judge = judge_of(named_by_verdict().fit);
     std::vector<UnreadFloor> floors;
     for (std::size_t i = 0; i < tests_; ++i) floors.push_back({&judge.test(i), judge.unread()[i], judge.expected()[i]});
     if (std::string told = told_of_unread(floors); !told.empty()) out_.quality.findings.push_back(std::move(told));
@@ -221,7 +225,7 @@ class Diagnoser : PairSearch {
 
   void tell_scatter_of_friction() {
     if (kind_of_set(bench_) != Kind::peaks) return;
-    const Candidate& model = out_.best ? out_.candidates[*out_.best] : out_.base;
+    const Candidate& model = named_by_verdict();
     const PeakScatter scatter = scatter_of_peaks(bench_, model.fit, jobs_);
     if (scatter.p_without_friction() > chance_level) return;
     out_.quality.findings.push_back(fmt::format(
