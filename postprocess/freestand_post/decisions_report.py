@@ -27,8 +27,14 @@ def _row(risk, row):
 
     return {"title": words.capitalised(row.title), "rate": words.a_year(row.rate[0]), "interval": _span(words.a_year, *row.rate[1:]),
             "chances": [(chance(value), _span(chance, low, high)) for _, value, low, high in row.in_years],
-            "median": words.quantity(row.median_im, risk.im_unit) if math.isfinite(row.median_im) else "–", "sweep": _share(row.outside_sweep), "hazard": _share(row.outside_hazard),
+            "median": _half_from_above(risk, row.median_im), "sweep": _share(row.outside_sweep), "hazard": _share(row.outside_hazard),
             "by": "counted shares" if row.by != "function" else "fitted curve, with no bin to check it" if row.why.startswith("no bin") else "fitted curve", "why": row.why, "refused": row.refused}
+
+
+def _half_from_above(risk, im):
+    if math.isnan(im):
+        return "–"
+    return words.quantity(im, risk.im_unit) if math.isfinite(im) else f"> {words.quantity(risk.edge[-1], risk.im_unit)}"
 
 
 def _span(text, low, high):

@@ -125,7 +125,7 @@ def read_risk(folder):
         rows = [RiskRow(row["edp"], row["unit"], value(row["capacity"]), _triple(row),
                         [(value(one["years"]), value(one["probability"]), value(one["lower"]), value(one["upper"])) for one in row["in_years"]],
                         row["recommended"], row["why"], row["refused"], _triple(row["by_function"]), _triple(row["by_counts"]),
-                        value(row["outside_sweep"]), value(row["outside_hazard"]), np.array(row["share_by_im"], float), value(row["median_im"]))
+                        value(row["outside_sweep"]), value(row["outside_hazard"]), np.array(row["share_by_im"], float), float("inf") if row.get("median_beyond_hazard") else value(row["median_im"]))
                 for row in found["demands"]]
         return Risk(folder, found["study_name"], found["sweep"], found["im"], found["im_unit"], value(found["period_s"]),
                     found["confidence"], np.array(found["hazard"]["im"]), np.array(found["hazard"]["annual_rate"]),

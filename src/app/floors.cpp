@@ -45,9 +45,13 @@ std::string Floors::text() {
     const FloorMotion floor = response_.floor(storey, ground_.name);
     const motion::MotionPeaks peaks = motion::peaks(floor);
     const auto height = building_.height_m(building_.floors()) ? building_.height_m(storey) : std::nullopt;
-    text += fmt::format("    {:>6}  {:>8}  {:>6.4f}  {:>6.3f}  {:>7.4f}  {:>6.3f}  {:>30}", storey,
+    const auto of_ground = [](double above, double ground) {
+      return ground > 0 ? fmt::format("{:.3f}", above / ground) : "-";
+    };
+    text += fmt::format("    {:>6}  {:>8}  {:>6.4f}  {:>6}  {:>7.4f}  {:>6}  {:>30}", storey,
                         height ? fmt::format("{:.2f}", *height) : "", peaks.pga_mps2 / standard_gravity_mps2,
-                        peaks.pga_mps2 / below.pga_mps2, peaks.pgv_mps, peaks.pgv_mps / below.pgv_mps, "");
+                        of_ground(peaks.pga_mps2, below.pga_mps2), peaks.pgv_mps,
+                        of_ground(peaks.pgv_mps, below.pgv_mps), "");
     for (const double period : floor_periods_s)
       text += fmt::format(" {:>6.3f}", motion::spectral_acceleration_mps2(floor, period) / standard_gravity_mps2);
     text += fmt::format("  {:>7}\n", floor.knot_s.size());

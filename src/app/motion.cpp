@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
 
@@ -78,12 +79,35 @@ motion::Processing processing(const MotionOptions& options) {
   return wanted;
 }
 
-void check_target(const std::filesystem::path& target, bool overwrite) {
+std::string first_column(const std::filesystem::path& file) {
+  std::ifstream text(file);
+  std::string line;
+  std::getline(text, line);
+  return line.substr(0, line.find(','));
+}
+
+// Replaced is only what begins as what is written in its place, and is none of the records that are read.
+void check_target(const std::filesystem::path& target, const std::string& column, const MotionOptions& options) {
   if (target.empty() || !std::filesystem::exists(target)) return;
   if (!std::filesystem::is_regular_file(target))
     throw Error(target.string() + " is no plain file (it would be replaced by one): give the name of a file");
-  if (!overwrite)
+  if (!options.overwrite)
     throw Error(target.string() + " exists already (it would be lost): choose another name, or give --overwrite");
+  std::vector<std::string> read = options.files;
+  for (const std::string& other : {options.cross, options.floor, options.synthetic.file}) read.push_back(other);
+  std::error_code ignored;
+  for (const std::string& file : read)
+    if (std::filesystem::equivalent(file, target, ignored))
+      throw Error(target.string() + " is what is read (it would be lost): choose another name");
+  if (first_column(target) != column)
+    throw Error(
+        fmt::format("{} is not what this command writes (its first column is not {}; it would be lost): choose another "
+                    "name, or remove it",
+                    target.string(), column));
+}
+void check_targets(const std::string& convert, const MotionOptions& options) {
+  check_target(convert, "time_s", options);
+  check_target(options.csv, "file", options);
 }
 
 // Names of those options that were given.
@@ -106,8 +130,7 @@ void show_set(const MotionOptions& options, const CLI::App& verb) {
         fmt::format("{} goes with records, not with --synthetic (its motions are made as they are wanted): "
                     "leave it out, or write the motions with --convert and treat those",
                     other));
-  for (const std::string& target : {options.synthetic.number >= 0 ? options.convert : "", options.csv})
-    check_target(target, options.overwrite);
+  check_targets(options.synthetic.number >= 0 ? options.convert : "", options);
   SyntheticOptions wanted = options.synthetic;
   wanted.convert = options.convert;
   wanted.csv = options.csv;
@@ -137,7 +160,7 @@ void show(const MotionOptions& options, const CLI::App& verb) {
   if (!options.convert.empty() && options.files.size() != 1)
     throw Error("--convert takes one record (there are " + std::to_string(options.files.size()) +
                 "): convert them one by one");
-  for (const std::string& target : {options.convert, options.csv}) check_target(target, options.overwrite);
+  check_targets(options.convert, options);
   const std::optional<study::BuildingPart> building = building_of(options);
   if (building && (building->drawn_period || building->drawn_damping))
     fmt::print("{} at the median of what is a distribution of it: period {:.4g} s, damping {:.4g}\n", building->name,
@@ -197,7 +220,8 @@ void add_motion(CLI::App& parser, Work& work) {
       ->check(zero_or_above("floor"));
   verb->add_option("--synthetic", options->synthetic.file,
                    "synthetic.yaml: a set of synthetic motions in place of records; --convert writes them to a folder");
-  verb->add_option("--seed", options->synthetic.seed, "with --synthetic: of the study that draws them (1)");
+  verb->add_option("--seed", options->synthetic.seed, "with --synthetic: of the study that draws them (1)")
+      ->check(CLI::NonNegativeNumber);
   verb->add_option("--number", options->synthetic.number, "with --synthetic: this motion alone, the first is 0")
       ->check(zero_or_above("number of a motion"));
   verb->add_flag("--overwrite", options->overwrite, "replace these files if they are there");

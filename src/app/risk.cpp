@@ -30,6 +30,13 @@ std::vector<std::pair<std::string, std::vector<std::string>>> reasons(const deci
   return found;
 }
 
+// The intensity from which on half of the rate comes.
+std::string half_from_above(const decision::RiskRow& row, const decision::Risk& risk) {
+  if (std::isnan(row.median_im)) return "-";
+  const bool beyond = std::isinf(row.median_im);
+  return fmt::format("{}{:.2g} {}", beyond ? "> " : "", beyond ? risk.edge.back() : row.median_im, risk.im_unit);
+}
+
 void tell(const study::RiskAnswer& answer, const study::RiskOptions& options) {
   const decision::Risk& risk = answer.risk;
   std::size_t width = 0;
@@ -53,7 +60,7 @@ void tell(const study::RiskAnswer& answer, const study::RiskOptions& options) {
     }
     fmt::print("  {:<{}}  {:<32}  {}{:<17}  {}\n", title(row), width,
                fmt::format("{:.2g} [{:.2g}, {:.2g}]", rate.value, rate.lower, rate.upper), chances,
-               std::isnan(row.median_im) ? "-" : fmt::format("{:.2g} {}", row.median_im, risk.im_unit),
+               half_from_above(row, risk),
                row.recommended != decision::By::function ? "counts"
                : std::isfinite(row.by_counts.value)      ? "fitted curve"
                                                          : "fitted curve, with no bin to check it");

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <tuple>
+#include <utility>
+#include <vector>
 
 namespace freestand::database {
 namespace {
 
 constexpr double least_resolution = 1e-12;  // Phi^-1 is finite there
+constexpr int halvings = 50;                // to round-off
 
 // Half a sample: with fewer, none of n would be expected to show it.
 double resolution_of(const Point& point) {
@@ -53,7 +56,149 @@ Probability lines(const std::vector<Node>& nodes, double im) {
   return p;
 }
 
+// A curve as its family states it.
+class Reading {
+ public:
+  explicit Reading(const Curve& curve)
+      : lognormal_(by_lognormal(curve)), median_(curve.median), dispersion_(curve.dispersion) {
+    const std::vector<const Point*> points = usable(curve);
+    if (points.empty()) return;
+    falls_ = !lognormal_ && falls(points);
+    if (!lognormal_) {
+      Probability start = of(*points.front());
+      if (falls_)
+        start.upper = 1;
+      else
+        start.value = start.lower = 0;
+      nodes_.push_back({0, start});
+    }
+    for (const Point* point : points) {
+      Probability p = of(*point);
+      if (lognormal_) p.lower -= p.value, p.upper -= p.value;
+      nodes_.push_back({point->im, p});
+    }
+  }
+
+  bool known() const { return !nodes_.empty(); }
+  bool falls_from_the_start() const { return falls_; }
+  // The same, but for what of it falls by chance.
+  Reading rising() const {
+    Reading risen = *this;
+    for (std::size_t i = 1; !lognormal_ && i < nodes_.size(); ++i)
+      for (double Probability::*member : {&Probability::value, &Probability::lower, &Probability::upper})
+        risen.nodes_[i].p.*member = std::max(risen.nodes_[i].p.*member, risen.nodes_[i - 1].p.*member);
+    return risen;
+  }
+
+  Probability operator()(double im) const {
+    if (!known()) return {};
+    Probability p = lines(nodes_, im);
+    if (!lognormal_) return p;
+    p.value = gsl_cdf_ugaussian_P(std::log(im / median_) / dispersion_);
+    p.lower = std::clamp(p.value + p.lower, 0.0, p.value);
+    p.upper = std::clamp(p.value + p.upper, p.value, 1.0);
+    return p;
+  }
+
+  // ln im of where it hardly begins, and of where it has come as far as it does.
+  std::pair<double, double> reach() const {
+    constexpr double far = 8;  // a lognormal is within 1e-15 of 0 and 1 so many dispersions from its median
+    const std::size_t first = lognormal_ ? 0 : 1;
+    const double from = std::log(nodes_[first].im) - far, to = std::log(nodes_.back().im);
+    if (!lognormal_) return {from, to};
+    return {std::min(from, std::log(median_) - far * dispersion_), std::max(to, std::log(median_) + far * dispersion_)};
+  }
+
+ private:
+  bool lognormal_, falls_ = false;
+  double median_, dispersion_;
+  std::vector<Node> nodes_;
+};
+
+// A curve that rises, or an end of its band, read the other way round.
+class Reached {
+ public:
+  Reached(const Reading& curve, double Probability::*member) : curve_(curve.rising()), member_(member) {
+    std::tie(from_, to_) = curve_.reach();
+  }
+  double most() const { return p_at(to_); }
+  // ln of the intensity from which on it is p at least: so far down as it looks where it always is.
+  double ln_im(double p) const {
+    double below = from_, above = to_;
+    if (p_at(below) >= p) return below;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (below + above);
+      (p_at(middle) >= p ? above : below) = middle;
+    }
+    return above;
+  }
+
+ private:
+  double p_at(double ln_im) const { return curve_(std::exp(ln_im)).*member_; }
+
+  Reading curve_;
+  double Probability::*member_;
+  double from_ = 0, to_ = 0;
+};
+
+struct AtEqualProbability {
+  double p, most;  // most: that all curves reach
+};
+
+// The p at which the weighed ln of the intensities at which the curves reach it is that of im.
+AtEqualProbability at_equal_probability(std::span<const Reading> curves, std::span<const double> weights, double im,
+                                        double Probability::*member, double Probability::*opposite) {
+  std::vector<Reached> reached;
+  double most = 1;
+  for (std::size_t i = 0; i < curves.size(); ++i) {
+    reached.emplace_back(curves[i], weights[i] < 0 ? opposite : member);
+    most = std::min(most, reached.back().most());
+  }
+  const auto is_reached = [&](double p) {
+    double sum = 0;
+    for (std::size_t i = 0; i < curves.size(); ++i) sum += weights[i] * reached[i].ln_im(p);
+    return sum <= std::log(im);
+  };
+  if (is_reached(most)) return {most, most};
+  double below = 0, above = most;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (below + above);
+    (is_reached(middle) ? below : above) = middle;
+  }
+  return {below, most};
+}
+
 }  // namespace
+
+Probability between(std::span<const Curve* const> curves, std::span<const double> weights, double im) {
+  std::vector<Reading> readings;
+  for (const Curve* curve : curves) readings.emplace_back(*curve);
+  if (readings.size() == 1) return readings.front()(im);
+  std::vector<Probability> here;
+  for (const Reading& reading : readings) here.push_back(reading(im));
+  if (std::ranges::any_of(readings, [](const Reading& r) { return !r.known() || r.falls_from_the_start(); }))
+    return blend(here, weights);
+  const auto equal = [&](double Probability::*member, double Probability::*opposite) {
+    return at_equal_probability(readings, weights, im, member, opposite);
+  };
+  const auto [value, most] = equal(&Probability::value, &Probability::value);
+  Probability p{value, equal(&Probability::lower, &Probability::upper).p,
+                equal(&Probability::upper, &Probability::lower).p, 0};
+  for (const Probability& one : here) p.resolution = std::max(p.resolution, one.resolution);
+  if (value < most) return p;
+  // More than the least of them reaches: none tells at which intensity it comes.
+  if (std::ranges::any_of(weights, [](double weight) { return weight < 0; })) {
+    p.upper = 1;
+    return p;
+  }
+  double mean = 0;
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    mean += weights[i] * here[i].value;
+    p.upper = std::max(p.upper, here[i].upper);
+  }
+  p.value = std::max(value, mean);
+  return p;
+}
 
 Probability blend(std::span<const Probability> known, std::span<const double> weights) {
   double resolution = least_resolution;
@@ -93,33 +238,7 @@ Probability blend(std::span<const Probability> known, std::span<const double> we
   return blended;
 }
 
-Probability at(const Curve& curve, double im) {
-  const std::vector<const Point*> points = usable(curve);
-  if (points.empty()) return {};
-  const auto fitted = [&](double x) { return gsl_cdf_ugaussian_P(std::log(x / curve.median) / curve.dispersion); };
-  std::vector<Node> nodes;
-  if (!by_lognormal(curve)) {
-    Probability start = of(*points.front());
-    if (falls(points))
-      start.upper = 1;
-    else
-      start.value = start.lower = 0;
-    nodes.push_back({0, start});
-    for (const Point* point : points) nodes.push_back({point->im, of(*point)});
-    return lines(nodes, im);
-  }
-  for (const Point* point : points) {
-    Probability p = of(*point);
-    p.lower -= p.value;
-    p.upper -= p.value;
-    nodes.push_back({point->im, p});
-  }
-  Probability p = lines(nodes, im);
-  p.value = fitted(im);
-  p.lower = std::clamp(p.value + p.lower, 0.0, p.value);
-  p.upper = std::clamp(p.value + p.upper, p.value, 1.0);
-  return p;
-}
+Probability at(const Curve& curve, double im) { return Reading(curve)(im); }
 
 bool by_lognormal(const Curve& curve) { return curve.family == lognormal_family && curve.dispersion > 0; }
 

@@ -14,11 +14,17 @@ struct Probability {
   double resolution = 1e-3;
 };
 
-// Between known ones with these weights, which sum to 1 and may be negative outside of them. The mean is taken of
-// Phi^-1(P), each P first drawn in to the resolution: lognormal curves of one dispersion come out exactly, and the ends of a
-// band stay in order; with a negative weight the opposite end. Where all are within the resolution of 0, or of 1, the mean is of P itself;
-// each end of the band for itself. So it is where some are and others are not: where between them the change begins no entry tells, and
-// the band holds the bands of both. A lower end of 0, or an upper one of 1, of any that has a positive weight is that of the answer.
+// Between curves with these weights, which sum to 1 and may be negative outside of them: at equal probability. P at im is that of
+// which the curves' intensities have im as their weighed geometric mean: of lognormals that is one, of the weighed ln medians and the
+// weighed dispersions, and where one curve has come to 1 and another is still at 0 the change lies between theirs. The ends of a band
+// alike, with a negative weight the opposite one. Above the largest P that all of them reach it is the mean of P, or, with a negative
+// weight, level with a band up to 1. Where one falls as the intensity rises (over the report's PTA/(mu g) - 1) by blend().
+Probability between(std::span<const Curve* const>, std::span<const double> weights, double im);
+
+// Between probabilities at one intensity. The mean is taken of Phi^-1(P), each P first drawn in to the resolution, so that the ends of a band
+// stay in order; with a negative weight the opposite end. Where all are within the resolution of 0, or of 1, the mean is of P itself; each end
+// of the band for itself. So it is where some are and others are not: where between them the change begins none tells, and the band holds
+// the bands of both. A lower end of 0, or an upper one of 1, of any that has a positive weight is that of the answer.
 Probability blend(std::span<const Probability> known, std::span<const double> weights);
 
 // The curve at an intensity > 0, by the rule that its family states: the lognormal of median and dispersion, or straight lines

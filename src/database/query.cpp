@@ -99,13 +99,6 @@ Between capacity_of(const Database& db, std::size_t entry, const Question& quest
   return {{curve(before), curve(next)}, {1 - t, t}};
 }
 
-Probability at(const Between& between, double im) {
-  std::vector<Probability> known;
-  for (const Curve* curve : between.curves) known.push_back(at(*curve, im));
-  if (known.size() == 1) return known.front();
-  return blend(known, between.weights);
-}
-
 // Intensities of the answer: the one asked for, or those of all its curves that lie within what each of them was swept over.
 std::vector<double> intensities(const Question& question, const std::vector<Between>& parts) {
   if (std::isfinite(question.im_value)) return {question.im_value};
@@ -180,24 +173,28 @@ std::string rule(const std::vector<Between>& parts) {
                      : lognormal == 0
                          ? "read by straight lines between the points over the intensity, as exports by levels are"
                          : "read by the lognormal where it is adequate, else by straight lines between the points";
-  if (all > 1) text += "; between entries and capacities by Phi^-1(P) over logarithms, whose error no band holds";
+  if (all > 1)
+    text +=
+        "; between entries and capacities by logarithms of the intensities at which P is the same, whose error no band "
+        "holds";
   return text;
 }
 
 Answer answer(const Database& db, const Question& question, bool binary, GridPoint point) {
   Answer answer{.parts = {}, .im = {}, .probability = {}, .notes = std::move(point.notes), .rule = {}, .between = {}};
   std::vector<Between> parts;
-  std::vector<double> weights;
+  Between all;
   for (const Part& part : point.parts) {
     parts.push_back(capacity_of(db, part.entry, question, binary));
-    weights.push_back(part.weight);
+    for (std::size_t i = 0; i < parts.back().curves.size(); ++i) {
+      all.curves.push_back(parts.back().curves[i]);
+      all.weights.push_back(part.weight * parts.back().weights[i]);
+    }
   }
   check_intensity(db, question, parts, answer.notes);
   answer.im = intensities(question, parts);
   for (const double im : answer.im) {
-    std::vector<Probability> known;
-    for (const Between& part : parts) known.push_back(at(part, im));
-    answer.probability.push_back(known.size() == 1 ? known.front() : blend(known, weights));
+    answer.probability.push_back(between(all.curves, all.weights, im));
     Probability& p = answer.probability.back();
     p.lower = std::min(p.lower, p.value);
     p.upper = std::max(p.upper, p.value);

@@ -192,8 +192,9 @@ double ByCounts::rate_below(const HazardCurve& hazard, const Range& range) const
     for (const fragility::CountedBin& bin : bins_)
       points.push_back({bin.im, bin.probability, static_cast<double>(edp_.bins[bin.index].n)});
   const Point& first = points.front();
-  if (!(first.share > 0) || !(range.from < range.to)) return 0;
-  const double level = first.share * (hazard.rate(std::max(range.from, hazard.first())) - hazard.rate(range.to));
+  const double from = std::max(range.from, hazard.first());
+  if (!(first.share > 0) || !(from < range.to)) return 0;
+  const double level = first.share * (hazard.rate(from) - hazard.rate(range.to));
   const auto larger = std::ranges::find_if(points, [&](const Point& other) { return other.share > first.share; });
   if (larger == points.end()) return level;
   // A share of 1 is that of all samples there: half a sample less.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <freestand/error.hpp>
+#include <limits>
 #include <optional>
 
 #include "decision/annual_rate.hpp"
@@ -74,7 +75,8 @@ class Row {
         f_(f),
         function_{hazard},
         counts_(hazard, result, edp, c, f, {risk.im_least, risk.im_most}),
-        edp_(edp) {
+        edp_(edp),
+        capacity_(c) {
     row_.edp = edp.name;
     row_.unit = edp.unit;
     if (!edp.binary) row_.capacity = edp.capacity[c];
@@ -127,42 +129,59 @@ class Row {
     }
   }
 
-  void outside() {
-    const double rate = row_.rate().value, end = hazard_.annual_rate.back();
-    const bool function = row_.recommended == By::function;
-    if (!(rate > 0) && counts_.nothing_counted()) return;
-    const double start = std::min(hazard_.first(), risk_.im_least) / 100;
-    const HazardCurve longer = begun_earlier(hazard_, start);
+  // What the recommended curve gives before the hazard curve's start; `longer` begins before it.
+  double before_start(const HazardCurve& longer) const {
     const Range before{0, hazard_.first()};
-    double beyond = 0, missing = 0;
+    if (row_.recommended == By::function) return annual_rate(longer, fragility(), before);
+    const ByCounts counts(longer, result_, edp_, capacity_, f_, {risk_.im_least, risk_.im_most});
+    return counts.rate(before) + counts.rate_below(longer, {0, std::min(risk_.im_least, hazard_.first())});
+  }
+
+  void outside() {
+    const bool function = row_.recommended == By::function;
+    if (!function && counts_.empty()) return;
+    // Of a demand that no sample exceeds the upper limit stands for the rate: it is all that is told.
+    const bool nothing = !(row_.rate().value > 0) && counts_.nothing_counted();
+    const double rate = nothing ? row_.rate().upper : row_.rate().value, end = hazard_.annual_rate.back();
+    const HazardCurve longer = begun_earlier(hazard_, std::min(hazard_.first(), risk_.im_least) / 100);
+    double beyond = 0, missing = before_start(longer);
     if (function) {
       beyond = annual_rate(hazard_, fragility(), {0, risk_.im_least});
       if (hazard_.last() > risk_.im_most) beyond += function_.rate(fragility(), {risk_.im_most, Range{}.to});
-      missing = annual_rate(longer, fragility(), before) + end * (1 - fragility()(hazard_.last()));
+      missing += end * (1 - fragility()(hazard_.last()));
     } else {
       beyond = counts_.rate_below(hazard_, {0, risk_.im_least});
       if (hazard_.last() > risk_.im_most) beyond += hazard_.rate(risk_.im_most) * counts_.unknown_above(risk_.im_most);
-      missing = counts_.rate_below(longer, before) + end * counts_.unknown_above(hazard_.last());
+      missing += end * counts_.unknown_above(hazard_.last());
     }
     row_.outside_sweep = function ? beyond / rate : rate + beyond > 0 ? beyond / (rate + beyond) : 0;
     row_.outside_hazard = rate + missing > 0 ? missing / (rate + missing) : 0;
     for (const auto& [share, what] : {std::pair(row_.outside_sweep, "outside of the sweep"),
                                       std::pair(row_.outside_hazard, "outside of the hazard curve")})
       if (share > outside_to_refuse && row_.refused.empty())
-        row_.refused = fmt::format("{:.0f} % of the rate may come from intensities {}", 100 * share, what);
+        row_.refused =
+            nothing
+                ? fmt::format(
+                      "no sample exceeds it, and {:.0f} % of what its rate may at most be comes from intensities {}",
+                      100 * share, what)
+                : fmt::format("{:.0f} % of the rate may come from intensities {}", 100 * share, what);
+  }
+
+  double recommended_rate(const Range& range) const {
+    return row_.recommended == By::function ? function_.rate(fragility(), range) : counts_.rate(range);
   }
 
   void split() {
     const double rate = row_.rate().value;
     double sum = 0;
+    row_.median_im = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i + 1 < risk_.edge.size(); ++i) {
       const bool last = i + 2 == risk_.edge.size();
-      const Range range{risk_.edge[i], last ? Range{}.to : risk_.edge[i + 1]};
-      const double part = row_.recommended == By::function ? function_.rate(fragility(), range) : counts_.rate(range);
-      row_.share.push_back(part / rate);
-      if (sum < 0.5 && sum + part / rate >= 0.5)
-        row_.median_im = risk_.edge[i] * std::pow(risk_.edge[i + 1] / risk_.edge[i], (0.5 - sum) * rate / part);
-      sum += part / rate;
+      const double from = risk_.edge[i], to = last ? hazard_.last() : risk_.edge[i + 1];
+      const double within = recommended_rate({from, to}) / rate;
+      if (sum < 0.5 && sum + within >= 0.5) row_.median_im = from * std::pow(to / from, (0.5 - sum) / within);
+      row_.share.push_back(last ? recommended_rate({from, Range{}.to}) / rate : within);
+      sum += within;
     }
   }
 
@@ -173,6 +192,7 @@ class Row {
   const ByFunction function_;
   ByCounts counts_;
   const EdpResult& edp_;
+  const std::size_t capacity_;
   RiskRow row_;
 };
 
@@ -242,6 +262,9 @@ Risk risk(const Result& result, const HazardCurve& hazard, const std::vector<std
   found.confidence = result.confidence;
   found.im_least = result.overturning.im_least;
   found.im_most = result.overturning.im_most;
+  if (std::isnan(found.im_least))
+    throw Error(
+        "no sample of the sweep lies in a bin of intensity (all are outside of the bins): fit it with other bins");
   if (!(found.im_least < hazard.last()) || !(hazard.first() < found.im_most))
     throw Error(fmt::format(
         "the hazard curve ({:.3g} to {:.3g}) and the sweep ({:.3g} to {:.3g} {}) share no intensity: is the "

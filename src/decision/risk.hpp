@@ -64,9 +64,10 @@ struct RiskRow {
   // from it, as its lowest shares fall and at most above it, as a share of both together. Of the rate: what may come from intensities outside of the
   // hazard curve (above its end at most as many events as it has there; below its start by its slope there).
   double outside_sweep = fragility::unknown, outside_hazard = fragility::unknown;
-  std::string refused;                    // why no rate is told; empty: one is
-  std::vector<double> share;              // [interval of intensity], of the recommended rate
-  double median_im = fragility::unknown;  // half of the rate comes from larger intensities
+  std::string refused;        // why no rate is told; empty: one is
+  std::vector<double> share;  // [interval of intensity], of the recommended rate
+  double median_im =
+      fragility::unknown;  // half of the rate comes from larger intensities; infinite: than the hazard curve's last
 
   const Rate& rate() const { return recommended == By::function ? by_function : by_counts; }
 };

@@ -120,7 +120,9 @@ std::string capacities(const EdpResult& edp, const Meant& meant, const Number& n
 void about_functions(const EdpResult& edp, const Options& options, const Result& result,
                      std::vector<std::string>& out) {
   const auto median = [&](const FragilityFunction& f) { return with_unit(f.median, result.im_unit); };
-  const auto off_by = [](const FragilityFunction& f) { return fmt::format("by {:.2f}", f.off_by); };
+  const auto off_by = [](const FragilityFunction& f) {
+    return std::isnan(f.off_by) ? "by how much two bins or less do not tell" : fmt::format("by {:.2g}", f.off_by);
+  };
   const auto told = [&](const std::string& concerned, const std::string& sentence) {
     if (!concerned.empty())
       out.push_back(fmt::format("{}: {}", edp.name, fmt::format(fmt::runtime(sentence), concerned)));

@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <freestand/error.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "motion/component.hpp"
 #include "motion/record.hpp"
@@ -40,7 +43,11 @@ Size read_size(const RecordText& text, std::size_t line) {
   const std::string_view count = value_of(header, "npts"), dt = value_of(header, "dt");
   if (count.empty() || dt.empty())
     text.fail(line, "NPTS= or DT= without a value (the header is cut): get the file again");
-  return {text.count(line, count), text.number(line, dt)};
+  const std::string unit =
+      lower_case(std::string(header.substr(static_cast<std::size_t>(dt.data() + dt.size() - header.data()))));
+  const auto behind = split(unit, " \t,");
+  const bool milliseconds = !behind.empty() && (behind.front() == "msec" || behind.front() == "ms");
+  return {text.count(line, count), text.number(line, dt) * (milliseconds ? 1e-3 : 1)};
 }
 
 bool is_unit(const std::string& word) {
@@ -51,32 +58,59 @@ bool is_unit(const std::string& word) {
   }
 }
 
-// "IN UNITS OF G. FILTER POINTS: ...", "UNITS: M/S2", "TIME SERIES IN CM/S2", "ACCELERATION (M/S2)". What stands behind "units of" is the unit
-// whether it is known or not; elsewhere a unit alone is one.
+// Known or not: "cm/s**2", "%g", "milli-g".
+bool looks_like_unit(const std::string& word) {
+  return is_unit(word) || word.find_first_of("/%*^") != std::string::npos || word.ends_with("-g") || word == "mg" ||
+         word == "cm" || word == "mm" || word == "m" || word == "cms2" || word == "ms2";
+}
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::vector<std::string> words;
+  for (const std::string_view part : split(line, " \t,()[]:=;")) {
+    words.emplace_back(part);
+    while (words.back().ends_with('.')) words.back().pop_back();
+  }
+  return words;
+}
+
+// "IN UNITS OF G. FILTER POINTS: ...": what stands behind is the unit, whether it is known or not.
+std::string named_unit(const std::string& line) {
+  const auto words = words_of(line);
+  for (std::size_t i = 2; i < words.size(); ++i)
+    if (words[i - 1] == "of" && words[i - 2] == "units") return words[i];
+  return "";
+}
+
+// "UNITS: M/S2", "TIME SERIES IN CM/S2", "ACCELERATION (M/S2)". One with a slash is one wherever it stands.
 std::string unit_in(const std::string& line) {
-  const auto words = split(line, " \t,()[]:=;");
-  for (std::size_t i = 1; i < words.size(); ++i) {
-    std::string word(words[i]);
-    while (word.ends_with('.')) word.pop_back();
-    const std::string_view before = words[i - 1];
-    if (i > 1 && before == "of" && words[i - 2] == "units") return word;
-    const bool behind = before == "units" || before == "unit" || before == "in" || before == "of" || before == "are";
+  const auto words = words_of(line);
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string &word = words[i], before = i > 0 ? words[i - 1] : "";
+    const bool stated = before == "units" || before == "unit";
+    if (stated && (looks_like_unit(word) || line.find(before + ":") != std::string::npos)) return word;
+    const bool behind = before == "in" || before == "of" || before == "are";
     const bool enclosed =
         line.find("(" + word + ")") != std::string::npos || line.find("[" + word + "]") != std::string::npos;
-    if ((behind || (enclosed && word != "g")) && is_unit(word)) return word;
+    const bool of_acceleration =
+        line.find("accel") != std::string::npos || line.find("time series") != std::string::npos;
+    if ((behind || (enclosed && word != "g")) && (of_acceleration ? looks_like_unit(word) : is_unit(word))) return word;
+    if (word.find('/') != std::string::npos && is_unit(word)) return word;
   }
   return "";
 }
 
 std::string read_unit(const RecordText& text, std::size_t until) {
+  std::string found;
   for (std::size_t i = 0; i < until; ++i) {
     const std::string line = lower_case(text.line(i));
     if (line.find("velocity time series") != std::string::npos ||
         line.find("displacement time series") != std::string::npos)
       text.fail(i, "not a record of acceleration (the header says so): use the .AT2 file");
-    if (const std::string unit = unit_in(line); !unit.empty()) return unit;
+    if (const std::string unit = named_unit(line); !unit.empty()) return unit;
+    // A station may be called (GAL): the line of the motion itself comes later.
+    if (const std::string unit = unit_in(line); !unit.empty()) found = unit;
   }
-  return "";
+  return found;
 }
 
 // The last entry of the line of event, date, station and component: "..., Corralitos, UP".

@@ -16,7 +16,7 @@ namespace freestand::motion {
 class GammaEnvelope {
  public:
   // Expected Arias intensity [m/s], duration from 5 to 95 % of it [s], time of 45 % of it [s]; all above zero. Throws Error
-  // (Exit::usage) where no k >= 1 has such times: duration over middle is at most 4.92, that of k = 1, at which the motion begins
+  // (Exit::usage) where no k >= 1 has such times: duration over middle is at most 4.93, that of k = 1, at which the motion begins
   // with its full strength.
   GammaEnvelope(double arias_mps, double duration_s, double middle_s);
 

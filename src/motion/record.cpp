@@ -175,14 +175,34 @@ double cosine(double angle_deg) {
   return turn == 90 ? 0 : turn == 180 ? -1 : std::cos(turn * (pi / 180));
 }
 
+// Of a file that holds both components: number of the horizontal channel that the options do not choose.
+std::string other_channel(const std::filesystem::path& path, const ReadOptions& options) {
+  const RecordText text(path);
+  const RawRecord raw = choose_format(text, options.format).read(text);
+  const RawChannel& chosen = choose_channel(text, raw, options);
+  std::vector<std::size_t> others;
+  for (std::size_t i = 0; i < raw.channels.size(); ++i)
+    if (!raw.channels[i].vertical && &raw.channels[i] != &chosen) others.push_back(i + 1);
+  if (others.size() != 1)
+    text.fail(
+        fmt::format("named as both components of a pair (beside the channel taken it holds {} horizontal channels, and "
+                    "one is needed): name the file of the other component",
+                    others.empty() ? "no" : std::to_string(others.size())));
+  return std::to_string(others.front());
+}
+
 // The other horizontal component.
 std::vector<double> read_cross(const std::filesystem::path& path, const Samples& samples, const ReadOptions& options) {
   ReadOptions own = options;
   own.cross_file.clear();
   own.vertical_file.clear();
   own.component = Component::horizontal;
+  std::error_code ignored;
+  if (std::filesystem::equivalent(path, options.cross_file, ignored)) own.channel = other_channel(path, own);
   Samples other = read_samples(options.cross_file, own);
   check_pair(path, samples, options, options.cross_file, other);
+  if (other.horizontal == samples.horizontal)
+    refuse_pair(path, options.cross_file, "they hold the same motion", "name the other component");
   if (samples.start.empty() && !options.begin_together && samples.horizontal.size() != other.horizontal.size())
     refuse_pair(path, options.cross_file,
                 fmt::format("they have {} and {} samples, and nothing tells whether they begin together",
@@ -257,13 +277,17 @@ std::string why_no_record(const std::filesystem::path& path) {
 double acceleration_unit_mps2(const std::string& unit) {
   std::string name;
   for (const char c : lower_case(unit))
-    if (c != '^' && c != ' ') name += c;
+    if (c != '^' && c != '*' && c != ' ') name += c;
+  if (const std::size_t square = name.find("\u00b2"); square != std::string::npos) name.replace(square, 2, "2");
+  if (name.ends_with("/sec/sec")) name.replace(name.size() - 8, 8, "/s2");
+  if (name.ends_with("/s/s")) name.replace(name.size() - 4, 4, "/s2");
+  if (name.ends_with("/sec2")) name.replace(name.size() - 5, 5, "/s2");
   if (name == "g") return standard_gravity_mps2;
-  if (name == "m/s2" || name == "mps2" || name == "m/s/s" || name == "m/sec2") return 1;
-  if (name == "cm/s2" || name == "cm/s/s" || name == "cm/sec2" || name == "cm/sec/sec" || name == "gal") return 0.01;
-  if (name == "mm/s2" || name == "mm/s/s" || name == "mm/sec2") return 0.001;
-  if (name == "in/s2" || name == "in/s/s" || name == "in/sec2") return inch_m;
-  if (name == "ft/s2" || name == "ft/s/s" || name == "ft/sec2") return 12 * inch_m;
+  if (name == "m/s2" || name == "mps2") return 1;
+  if (name == "cm/s2" || name == "gal" || name == "gals") return 0.01;
+  if (name == "mm/s2") return 0.001;
+  if (name == "in/s2") return inch_m;
+  if (name == "ft/s2") return 12 * inch_m;
   throw Error(
       fmt::format("no unit of acceleration \"{}\" (the units are g, m/s2, cm/s2 or gal, mm/s2, in/s2, ft/s2): name "
                   "one of these",

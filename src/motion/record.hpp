@@ -23,7 +23,7 @@ struct ReadOptions {
   std::string vertical_file = {};  // record of the vertical component, same step; the shorter of the two ends at rest
   // Record of the other horizontal component. `keep_cross`: it becomes the motion's second channel. Else the motion is turned by
   // this angle from this component towards that one: what is read is this * cos + other * sin, each to the bit at 0 and 90
-  // degrees.
+  // degrees. The same file again means the other horizontal channel in it.
   std::string cross_file = {};
   bool keep_cross = false;
   double rotate_deg = 0;

@@ -38,6 +38,12 @@ struct Amplitudes {
 const Amplitudes amplitudes[] = {
     {-2, {"g", "gal", "m/s2", "cm/s2"}}, {-1, {"m/s", "cm/s", "in/s"}}, {0, {"m", "cm", "mm", "in"}}};
 
+// A spectral ordinate: sa_0.5s_g, psa_1s_g.
+bool is_of_a_period(const std::string& column) {
+  const std::string first = lower_case(column.substr(0, column.find('_')));
+  return first == "sa" || first == "psa" || first == "sv" || first == "psv" || first == "sd";
+}
+
 template <class Words>
 bool holds(const Words& words, std::string_view word) {
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
@@ -200,7 +206,7 @@ std::optional<RecordNumber> record_number(const std::string& column) {
   if (holds(own_columns, column)) return {};
   const std::string first = lower_case(column.substr(0, column.find('_')));
   const std::string unit = column.ends_with("_km") ? "km" : unit_of(column);
-  const int time = unit == "s" ? 1 : 0;  // durations and periods
+  const int time = unit == "s" ? 1 : unit == "Hz" || unit == "rad/s" ? -1 : unit == "Hz/s" ? -2 : 0;
   if (holds(properties, first)) return RecordNumber{column, unit, 0, 0, time};
   if (first == "bracketed")
     return {};  // the time above a level: at another scale of the record it is another one, and none knows which
@@ -213,6 +219,7 @@ std::optional<RecordNumber> record_number(const std::string& column) {
 }
 
 double RecordNumber::at_scale(double value, const Similitude& scale) const {
+  if (scale.time != 1 && is_of_a_period(name)) return std::numeric_limits<double>::quiet_NaN();
   return value * std::pow(scale.length, length) * std::pow(scale.time, time);
 }
 

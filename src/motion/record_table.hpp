@@ -31,7 +31,7 @@ struct RecordNumber {
   int power = 1;             // 1 an amplitude; 2 Arias intensity; 0 a property: magnitude, distance, duration, site
   int length = 0, time = 0;  // at another scale (similitude.hpp) it is multiplied with L^length T^time
 
-  // The number at that scale. What a column says of a period (sa_g at 1 s) is then that of the period times T.
+  // The number at that scale. NaN of a spectral ordinate (sa_1s_g) at another scale of times: it is then that of another period.
   double at_scale(double value, const Similitude&) const;
 };
 

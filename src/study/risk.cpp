@@ -140,6 +140,7 @@ Json row_json(const decision::RiskRow& row, const std::vector<double>& years) {
   json["outside_sweep"] = row.outside_sweep;
   json["outside_hazard"] = row.outside_hazard;
   json["median_im"] = row.median_im;
+  json["median_beyond_hazard"] = std::isinf(row.median_im);
   json["share_by_im"] = row.share;
   return json;
 }

@@ -62,8 +62,9 @@ FloorMotion realisation(const SyntheticPart& part, std::uint64_t seed, std::uint
 }
 
 std::vector<motion::RecordNumber> synthetic_numbers(const SyntheticPart& part) {
-  std::vector<std::string> names = {"arias_expected_mps",   "duration_s", "middle_s", "frequency_hz",
-                                    "frequency_slope_hzps", "bandwidth",  "corner_hz"};
+  std::vector<std::string> names = {"arias_expected_mps", "significant_5_95_expected_s", "middle_s",
+                                    "frequency_hz",       "frequency_slope_hzps",        "bandwidth",
+                                    "corner_hz"};
   if (part.pulse) names.insert(names.end(), {"pulse_peak_velocity_mps", "pulse_middle_s"});
   std::vector<motion::RecordNumber> numbers;
   for (const std::string& name : names) numbers.push_back(motion::record_number(name).value());

@@ -18,7 +18,7 @@ motion::SyntheticParameters synthetic_parameters(const SyntheticPart&, std::uint
 // Named after its set and number, "synthetic 17". Throws Error (Exit::usage) where there is no such motion.
 FloorMotion realisation(const SyntheticPart&, std::uint64_t seed, std::uint64_t n);
 
-// What a realisation brings for intensities: its parameters, record.duration_s and the like; record.arias_expected_mps for the
+// What a realisation brings for intensities: its parameters, record.significant_5_95_expected_s and the like; record.arias_expected_mps for the
 // expected Arias intensity, which its own is not.
 std::vector<motion::RecordNumber> synthetic_numbers(const SyntheticPart&);
 std::vector<double> synthetic_values(const motion::SyntheticParameters&);  // of these, in their order

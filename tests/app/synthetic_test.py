@@ -37,8 +37,19 @@ class Synthetic(InFolder):
                     self.assertEqual(a["samples"][name][()].tobytes(), other["samples"][name][()].tobytes(), name)
         self.assertEqual((one / "bins.csv").read_bytes(), (three / "bins.csv").read_bytes())
         with open(one / "ranking.csv", newline="") as ranking:
-            self.assertIn(",record_duration_s,6,", ranking.read())
+            self.assertIn(",record_significant_5_95_expected_s,6,", ranking.read())
         self.succeed(["fit", one, "--im", "record.frequency_hz", "-o", self.folder / "fit"])
+
+    def test_motion_replaces_only_what_it_wrote(self):
+        record, notes = self.folder / "x.csv", self.folder / "notes.txt"
+        self.succeed(["motion", "--synthetic", self.set, "--number", 1, "--convert", record])
+        before = record.read_bytes()
+        notes.write_text("of the laboratory\n")
+        self.fail_with(2, ["motion", record, "--convert", record, "--overwrite"], "is what is read")
+        self.fail_with(2, ["motion", record, "--csv", notes, "--overwrite"], "is not what this command writes")
+        self.assertEqual((record.read_bytes(), notes.read_text()), (before, "of the laboratory\n"))
+        for _ in range(2):
+            self.succeed(["motion", record, "--csv", self.folder / "table.csv", "--convert", self.folder / "y.csv", "--overwrite"])
 
     def test_motion_writes_what_a_study_reads(self):
         folder, table = self.folder / "made", self.folder / "made.csv"

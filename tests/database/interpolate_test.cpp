@@ -85,6 +85,85 @@ TEST(Interpolate, ExtrapolationIsNoSurer) {
   }
 }
 
+double between_two(const Curve& a, const Curve& b, double t, double im) {
+  return between(std::array{&a, &b}, std::array{1 - t, t}, im).value;
+}
+
+TEST(Interpolate, BetweenLognormalsIsALognormal) {
+  const Curve a = test::curve(0, 0.05, 0.3, 0.3), b = test::curve(1, 0.05, 0.7, 0.6);
+  for (const double t : {0.25, 0.8, -0.2, 1.3})
+    for (const double im : {0.02, 0.1, 0.4, 0.9, 3.0})
+      EXPECT_NEAR(between_two(a, b, t, im),
+                  test::lognormal(im, std::pow(0.3, 1 - t) * std::pow(0.7, t), (1 - t) * 0.3 + t * 0.6), 1e-9)
+          << t << " " << im;
+}
+
+// Blocks that slide by the pulse alone begin to exceed at one intensity each.
+Curve leap(double im) {
+  Curve curve = test::curve(0, 0.05, 0.4, 0.5);
+  curve.family = points_family;
+  curve.points = {{0.5 * im, 0, 0, 0.01, 100},
+                  {0.99 * im, 0, 0, 0.01, 100},
+                  {1.01 * im, 1, 0.99, 1, 100},
+                  {8 * im, 1, 0.99, 1, 100}};
+  return curve;
+}
+
+TEST(Interpolate, BetweenNoneAndAllTheChangeLiesBetween) {
+  const Curve a = leap(0.2), b = leap(0.8);
+  for (const double t : {0.5, 0.25, 1.3}) {
+    const double there = 0.2 * std::pow(4, t);
+    EXPECT_NEAR(between_two(a, b, t, 0.98 * there), 0, 1e-9) << t;
+    EXPECT_NEAR(between_two(a, b, t, 1.02 * there), 1, 1e-9) << t;
+  }
+}
+
+// Counted curves of lognormal friction, by the formula for a rectangular pulse: between two medians of it the answer is the formula's, wherever
+// either has come to 1, and nowhere falls.
+TEST(Interpolate, BetweenFrictionsACurveIsTheFormulasAndRises) {
+  const auto exceeds = [](double im, double mu) {  // slip of 0.1 m
+    double sum = 0;
+    for (int i = 0; i < 2000; ++i) {
+      const double m = mu * std::exp(0.3 * gsl_cdf_ugaussian_Pinv((i + 0.5) / 2000));
+      sum += im > m && (im - m) * 9.81 * 0.125 * im / m > 0.1;
+    }
+    return sum / 2000;
+  };
+  const auto counted = [&](double mu) {
+    Curve curve = test::curve(0, 0.05, 0.4, 0.5);
+    curve.family = points_family;
+    curve.points.clear();
+    for (double im = 0.09; im < 1; im += 0.05) {
+      const double p = exceeds(im, mu);
+      curve.points.push_back({im, p, std::max(0.0, p - 0.03), std::min(1.0, p + 0.03), 340});
+    }
+    return curve;
+  };
+  const Curve low = counted(0.15), high = counted(0.3);
+  for (const double mu : {0.2, 0.25, 0.33}) {
+    const double t = std::log(mu / 0.15) / std::log(2);
+    double before = 0;
+    for (double im = 0.1; im < 0.9; im += 0.02) {
+      const double p = between_two(low, high, t, im);
+      EXPECT_GE(p, before - 1e-9) << mu << " " << im;
+      EXPECT_NEAR(p, exceeds(im, mu), 0.03) << mu << " " << im;
+      before = p;
+    }
+  }
+}
+
+// One that was swept to where a half of it exceeds tells nothing of how the rest comes.
+TEST(Interpolate, AboveWhatAllReachTheBandIsOpen) {
+  const Curve whole = leap(0.2);
+  Curve half = leap(0.8);
+  half.points = {{0.4, 0, 0, 0.01, 100}, {0.8, 0.5, 0.4, 0.6, 100}};
+  const Probability inside = between(std::array<const Curve*, 2>{&whole, &half}, std::array{0.5, 0.5}, 0.8);
+  EXPECT_NEAR(inside.value, 0.75, 1e-9);
+  EXPECT_EQ(inside.upper, 1);
+  EXPECT_LE(inside.lower, 0.4);
+  EXPECT_EQ(between(std::array<const Curve*, 2>{&whole, &half}, std::array{-0.3, 1.3}, 3.0).upper, 1);
+}
+
 TEST(Interpolate, ALognormalGoesOnBeyondThePointsAndTakesItsBandAlong) {
   const Curve curve = test::curve(0, 0.05, 0.4, 0.5);
   for (const double im : {0.08, 0.13, 0.3, 1.7, 2.1}) {

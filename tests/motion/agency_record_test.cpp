@@ -11,16 +11,6 @@ namespace {
 
 // ---- files with several channels and other agencies ----
 
-std::string csmip_channel(int number, const std::string& name, const std::string& values,
-                          const std::string& dt = ".010") {
-  return "Corrected accelerogram   58667-L2866-14236.52       Chan  " + std::to_string(number) + ":  " + name +
-         "         from   \nChan  " + std::to_string(number) + ":  " + name +
-         "   \nsome header\n    3 points of accel data equally spaced at  " + dt + " sec, in cm/sec2. (8f10.6)    \n" +
-         values +
-         "    3 points of veloc data equally spaced at  .010 sec, in cm/sec.  (8f10.7)\n 9.0000000 9.0000000 "
-         "9.0000000\n/&  ----------  End of data\n";
-}
-
 TEST_F(Record, CsmipV2ReadsItsChannels) {
   // Columns of ten that run together, as they do where values are large.
   const auto path = write("x.V2", csmip_channel(1, "H1", "  -.001239100.123456200.000000\n") +

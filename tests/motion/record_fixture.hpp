@@ -39,6 +39,17 @@ inline void expect_samples(const FloorMotion& motion, double dt, std::vector<dou
   EXPECT_THAT(samples(motion), testing::Pointwise(testing::DoubleNear(1e-12), in_mps2(std::move(values), unit)));
 }
 
+// One channel of a CSMIP V2 file, of three samples.
+inline std::string csmip_channel(int number, const std::string& name, const std::string& values,
+                                 const std::string& dt = ".010") {
+  return "Corrected accelerogram   58667-L2866-14236.52       Chan  " + std::to_string(number) + ":  " + name +
+         "         from   \nChan  " + std::to_string(number) + ":  " + name +
+         "   \nsome header\n    3 points of accel data equally spaced at  " + dt + " sec, in cm/sec2. (8f10.6)    \n" +
+         values +
+         "    3 points of veloc data equally spaced at  .010 sec, in cm/sec.  (8f10.7)\n 9.0000000 9.0000000 "
+         "9.0000000\n/&  ----------  End of data\n";
+}
+
 class Record : public TemporaryFolder {
  protected:
   // The message of the Error that reading throws, and its exit code.

@@ -18,6 +18,7 @@ TEST_F(Record, At2ReadsEveryVariantOfItsHeader) {
                            "NPTS=   7, DT=   .0050 SEC                                              \n",
                            "NPTS=   7, DT=   .0050 SEC,   0 POLE @    30.00000 HZ,  -5 POLE @      .05000\n",
                            "NPTS=  7, DT= .00500 SEC\n",
+                           "NPTS=  7, DT= 5.0 MSEC\n",
                            "NPTS=7,DT=5.0E-03\n",
                            "npts =     7 , dt =   0.005 sec\n",
                            "    7    0.0050    NPTS, DT\n"};
@@ -109,6 +110,25 @@ TEST_F(Record, At2IsInTheUnitOfItsHeader) {
     expect_samples(read_record(at2(line)), 0.005, seven, 1);
     expect_usage_error(at2(line), "unit g contradicts the file (it says m/s2)", {.unit = "g"});
   }
+  for (const char* line :
+       {"ACCELERATION TIME SERIES IN CM/SEC**2", "ACCELERATION, UNITS: CM/S**2", "Acceleration (cm/sec**2)",
+        "ACCELERATION IN GALS", "UNITS: GALS", "ACCELERATION (cm/s\u00b2)", "UNITS CM/S\u00b2", "ACCELERATION cm/s2",
+        "CORRECTED ACCELERATION (CM/SEC/SEC)"}) {
+    SCOPED_TRACE(line);
+    expect_samples(read_record(at2(line)), 0.005, seven, 0.01);
+  }
+  // Units of something, which are not known: never taken for g.
+  for (const char* line :
+       {"ACCELERATION IN CM / S2", "ACC (CM/S-2) OF ACCELERATION", "ACCELERATION IN MILLI-G", "ACCELERATION (MG)",
+        "ACCELERATION (%G)", "UNITS: COUNTS", "VELOCITY IN CM/S OF ACCELERATION"}) {
+    SCOPED_TRACE(line);
+    expect_data_error(at2(line), 0, "no unit of acceleration");
+  }
+  expect_samples(read_record(write("x.AT2",
+                                   "a\nLOMA PRIETA, Galway (GAL), 090\nACCELERATION IN UNITS OF G\nNPTS= 7, DT= .0050 "
+                                   "SEC\n" +
+                                       seven_text)),
+                 0.005, seven, g);
   expect_samples(read_record(at2("ACCELERATION TIME HISTORY")), 0.005, seven, g);
   expect_samples(read_record(at2("ACCELERATION TIME HISTORY"), {.unit = "m/s2"}), 0.005, seven, 1);
   expect_samples(read_record(at2("ACCELERATION OF STATION G IN THE WEST (G)")), 0.005, seven, g);

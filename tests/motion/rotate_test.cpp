@@ -56,6 +56,25 @@ TEST_F(Rotation, ByThirtyDegreesIsByTheirSineAndCosine) {
   for (std::size_t i = 0; i < a.size(); ++i) EXPECT_NEAR(x[i], std::sqrt(3) / 2 * a[i] + b[i] / 2, 1e-13);
 }
 
+// A floor csv holds one horizontal channel; a file that holds two is its own partner.
+TEST_F(Rotation, OfAFileWithItselfIsByItsOtherHorizontalChannel) {
+  const std::string channels = csmip_channel(1, "H1", "  1.000000  2.000000  3.000000\n") +
+                               csmip_channel(2, "UP", "  7.000000  8.000000  9.000000\n") +
+                               csmip_channel(3, "H2", "  4.000000 -5.000000  6.000000\n");
+  const auto file = write("x.V2", channels);
+  const auto turned = [&](const std::string& channel) {
+    return samples(read_record(file, {.channel = channel, .cross_file = file.string(), .rotate_deg = 90}));
+  };
+  EXPECT_EQ(turned(""), samples(read_record(file, {.channel = "H2"})));
+  EXPECT_EQ(turned("3"), samples(read_record(file, {.channel = "H1"})));
+  const auto refusal = [&](const std::filesystem::path& a, const std::filesystem::path& b) {
+    return freestand::test::error_text(Exit::data,
+                                       [&] { read_record(a, {.cross_file = b.string(), .rotate_deg = 45}); });
+  };
+  EXPECT_THAT(refusal(a_, a_), testing::HasSubstr("named as both components of a pair"));
+  EXPECT_THAT(refusal(a_, write("copy.AT2", at2(one))), testing::HasSubstr("they hold the same motion"));
+}
+
 TEST_F(Rotation, OfWhatDoesNotBeginTogetherIsRefusedWithBothNames) {
   const auto refusal = [&](const std::filesystem::path& cross) {
     const auto [text, exit] = problem(a_, {.cross_file = cross.string(), .rotate_deg = 30});

@@ -42,8 +42,8 @@ class Scales : public testing::Test {
  protected:
   void SetUp() override {
     std::ofstream(folder_ / "floor.csv") << record_text();
-    std::ofstream(folder_ / "INDEX.csv")
-        << "file,pga_g,pgv_mps,pgd_m,arias_mps,magnitude_mw,duration_s\nfloor.csv,0.5,1,0.25,3,6.5,8\n";
+    std::ofstream(folder_ / "INDEX.csv") << "file,pga_g,pgv_mps,pgd_m,arias_mps,magnitude_mw,duration_s,mean_frequency_"
+                                            "hz,sa_1s_g\nfloor.csv,0.5,1,0.25,3,6.5,8,2,0.7\n";
   }
   Study study(const std::string& motion, const std::string& more = "") const {
     return parse_study(block + friction + samples + fragility + "motions: [" + motion + "]\n" + more,
@@ -139,6 +139,8 @@ TEST_F(Scales, IntensitiesFollow) {
   EXPECT_EQ(given("arias_mps"), 0.125);  // integral of a^2
   EXPECT_EQ(given("magnitude_mw"), 1);
   EXPECT_EQ(given("duration_s"), 0.5);
+  EXPECT_EQ(given("mean_frequency_hz"), 2);
+  EXPECT_TRUE(std::isnan(given("sa_1s_g")));  // which is that of half a second now
 }
 
 TEST_F(Scales, StandInTheExpandedStudyAndInItsFingerprint) {

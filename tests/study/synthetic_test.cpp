@@ -47,7 +47,8 @@ std::vector<double> column(const MotionSet& motions, const std::string& name) {
 }
 
 TEST(SyntheticMotions, AreMotionsOfTheirOwnThatBringTheirParameters) {
-  const Study swept = study(12, shaking + pulse, ", scale_to: {pga_g: {uniform: [0.1, 1]}}", "record.duration_s");
+  const Study swept =
+      study(12, shaking + pulse, ", scale_to: {pga_g: {uniform: [0.1, 1]}}", "record.significant_5_95_expected_s");
   const MotionSet motions = load_motions(swept);
   ASSERT_EQ(motions.size(), 12U);
   EXPECT_EQ(motions.names()[11], "synthetic 11");
@@ -55,7 +56,8 @@ TEST(SyntheticMotions, AreMotionsOfTheirOwnThatBringTheirParameters) {
   for (int i = 0; i < 12; ++i) own[i] = i;
   EXPECT_EQ(motions.groups(), own);  // the unit of the statistics
   const MotionSummaries summaries = summarize(motions, {1.0});
-  for (const double duration : column(motions, "duration_s")) EXPECT_TRUE(duration > 3 && duration < 6);
+  for (const double duration : column(motions, "significant_5_95_expected_s"))
+    EXPECT_TRUE(duration > 3 && duration < 6);
   const Realiser realise(swept, motions);
   std::set<std::size_t> taken;
   for (std::uint64_t sample = 0; sample < 64; ++sample) {
@@ -70,7 +72,7 @@ TEST(SyntheticMotions, AreMotionsOfTheirOwnThatBringTheirParameters) {
   EXPECT_TRUE(known.type == "B" || known.type == "C1");
   EXPECT_EQ(known.period_s, 1.5);
   EXPECT_TRUE(summaries[0].pulse.period_given);
-  EXPECT_EQ(summaries[0].given_value("duration_s"), column(motions, "duration_s")[0]);
+  EXPECT_EQ(summaries[0].given_value("significant_5_95_expected_s"), column(motions, "significant_5_95_expected_s")[0]);
 }
 
 TEST(SyntheticMotions, ADrawIsAFunctionOfSeedNameAndNumber) {
@@ -85,7 +87,7 @@ TEST(SyntheticMotions, ADrawIsAFunctionOfSeedNameAndNumber) {
   std::string wider = shaking;
   wider.replace(wider.find("bandwidth: 0.3"), 14, "bandwidth: {uniform: [0.2, 0.4]}");
   const MotionSet more = load_motions(study(9, wider + pulse));
-  for (const char* name : {"arias_expected_mps", "duration_s", "middle_s", "frequency_hz"})
+  for (const char* name : {"arias_expected_mps", "significant_5_95_expected_s", "middle_s", "frequency_hz"})
     EXPECT_EQ(column(more, name), column(many, name)) << name;
   EXPECT_NE(column(more, "bandwidth"), column(many, "bandwidth"));
 }
