@@ -31,15 +31,10 @@ class Importer {
       floors.push_back(read_file(test.floor));
       responses.push_back(read_file(test.response));
     }
-    step_s_ = lab_.sampling_dt_s;
-    for (std::size_t i = 0; i < floors.size() && lab_.sampling_dt_s == 0; ++i)
-      for (const double step : {floors[i].step_s, responses[i].step_s})
-        step_s_ = step_s_ == 0 ? step : std::min(step_s_, step);
-    step_s_ = std::round(1e7 * step_s_) / 1e7;  // clocks are read to some microseconds
     const std::vector<double> clock_s = clocks(floors, responses);
     for (std::size_t i = 0; i < floors.size(); ++i) take(lab_.tests[i], floors[i], responses[i], clock_s[i]);
     tell_noise();
-    out_.files.emplace_back("dataset.yaml", dataset_text(lab_, noise_, step_s_, tests_));
+    out_.files.emplace_back("dataset.yaml", dataset_text(lab_, noise_, tests_));
     for (const TestOfLab& t : tests_) out_.files.emplace_back(t.test.id + ".csv", csv_text(t));
     return std::move(out_);
   }
@@ -50,7 +45,7 @@ class Importer {
   void take(const LabTest& lab, const File& floor, const File& response, double clock_s) {
     TestOfLab t = on_one_clock(lab, floor, response, clock_s);
     tell(lab, floor, response, t);
-    see_floor_noise(lab, floor);
+    see_floor_noise(lab, floor, t.test.dt_s);
     see_noise(noise_.slip_m, response, lab.slip, lab_.noise.slip_m);
     see_noise(noise_.rotation_rad, response, lab.rotation, lab_.noise.rotation_rad);
     see_noise(noise_.block_acceleration_mps2, response, lab.block_acceleration, lab_.noise.block_acceleration_mps2);
@@ -94,7 +89,7 @@ class Importer {
         unsure.push_back(lab.id);
         continue;
       }
-      each.back() = std::round(1e4 * timing.late * step_s_) / 1e4;
+      each.back() = std::round(1e4 * timing.late * step_of(floors[i], responses[i])) / 1e4;
       found.push_back(each.back());
     }
     for (const LabTest& lab : lab_.tests)
@@ -109,7 +104,7 @@ class Importer {
           "the floor far better at some time than as it is at any, up to {} s either way",
           fmt::join(mirrored, ", "), longest_offset_s));
     std::sort(found.begin(), found.end());
-    const bool one_clock = found.size() > 1 && found.back() - found.front() <= 2 * step_s_;
+    const bool one_clock = found.size() > 1 && found.back() - found.front() <= 2 * longest_step(floors, responses);
     if (!together.empty() && !one_clock)  // else it is told of all tests below
       say(fmt::format(
           "{}: no offset between the clocks of floor and response is seen by the slips, which are looked through up "
@@ -147,11 +142,30 @@ class Importer {
         whose, std::abs(clock_s), clock_s > 0 ? "late" : "early");
   }
 
+  // The finer one of the two files.
+  double step_of(const File& floor, const File& response) const {
+    return lab_.sampling_dt_s > 0 ? lab_.sampling_dt_s : std::min(floor.step_s, response.step_s);
+  }
+  double longest_step(const std::vector<File>& floors, const std::vector<File>& responses) const {
+    double longest = 0;
+    for (std::size_t i = 0; i < floors.size(); ++i) longest = std::max(longest, step_of(floors[i], responses[i]));
+    return longest;
+  }
+
+  // That of a reading of the response, where these stand on the grid; else as early as both run.
+  static double first_instant(const File& floor, const Series& times, double steps_a_reading) {
+    const double both = std::max(floor.time.front(), times.front());
+    if (std::abs(steps_a_reading - std::round(steps_a_reading)) > 1e-3 * steps_a_reading) return both;
+    const auto first = std::ranges::find_if(times, [&](double time) { return time >= both; });
+    return first == times.end() ? both : *first;
+  }
+
   TestOfLab on_one_clock(const LabTest& lab, const File& floor, const File& response, double clock_s) const {
     Series times = response.time;
     for (double& time : times) time -= clock_s;
-    const double start = std::max(floor.time.front(), times.front()), end = std::min(floor.time.back(), times.back());
-    const double steps = std::floor((end - start) / step_s_ * (1 + 1e-9) + 1e-6);
+    const double step_s = step_of(floor, response), start = first_instant(floor, times, response.step_s / step_s);
+    const double end = std::min(floor.time.back(), times.back());
+    const double steps = std::floor((end - start) / step_s * (1 + 1e-9) + 1e-6);
     if (!(steps >= 10))
       throw Error(
           fmt::format(
@@ -164,22 +178,23 @@ class Importer {
           Exit::data);
     const auto count = static_cast<std::size_t>(steps) + 1;
     const auto of = [&](const File& file, const Series& time, const std::optional<LabColumn>& column) {
-      return column ? at_times(file, time, *column, start, step_s_, count) : Series{};
+      return column ? at_times(file, time, *column, start, step_s, count) : Series{};
     };
     TestOfLab t;
     t.start_s = start;
     const auto of_floor = [&](const std::optional<LabColumn>& column) {
-      return column ? floor_at_times(floor, *column, start, step_s_, count) : Series{};
+      return column ? floor_at_times(floor, *column, start, step_s, count) : Series{};
     };
     t.floor = of_floor(lab.acceleration);
     t.vertical = of_floor(lab.vertical);
     t.test.id = lab.id;
     t.test.role = lab.role;
-    t.test.dt_s = step_s_;
+    t.test.dt_s = step_s;
+    t.test.steps_a_reading = std::max(1, static_cast<int>(std::lround(response.step_s / step_s)));
     t.test.slip_m = of(response, times, lab.slip);
     t.test.rotation_rad = of(response, times, lab.rotation);
     t.test.block_acceleration_mps2 = of(response, times, lab.block_acceleration);
-    measurement::read_floor(t.test, {lab.id, step_s_, t.floor});
+    measurement::read_floor(t.test, {lab.id, step_s, t.floor});
     return t;
   }
 
@@ -194,7 +209,7 @@ class Importer {
     set.noise.slip_m = noise_of(response, lab.slip, lab_.noise.slip_m);
     set.noise.rotation_rad = noise_of(response, lab.rotation, lab_.noise.rotation_rad);
     set.tests = {t.test};
-    return slip_timing(measurement::Bench(set, 0), 0, static_cast<int>(longest_offset_s / step_s_), sign_is_known);
+    return slip_timing(measurement::Bench(set, 0), 0, static_cast<int>(longest_offset_s / t.test.dt_s), sign_is_known);
   }
 
   static std::string changed(const LabColumn& column, const std::string& to) {
@@ -203,6 +218,7 @@ class Importer {
   }
 
   void tell(const LabTest& lab, const File& floor, const File& response, const TestOfLab& t) {
+    const double step_s = t.test.dt_s;
     std::vector<std::string> columns = {changed(lab.acceleration, "floor_acceleration_mps2")};
     if (lab.vertical) columns.push_back(changed(*lab.vertical, "floor_vertical_acceleration_mps2"));
     if (lab.slip) columns.push_back(changed(*lab.slip, "slip_m"));
@@ -214,23 +230,23 @@ class Importer {
     say(
         fmt::format("{}: floor in steps of {:.4g} s, response of {:.4g} s, both now of {:.4g} s; {:.4g} s of {:.4g} s "
                     "and {:.4g} s are in both",
-                    lab.id, floor.step_s, response.step_s, step_s_, step_s_ * static_cast<double>(t.floor.size() - 1),
+                    lab.id, floor.step_s, response.step_s, step_s, step_s * static_cast<double>(t.floor.size() - 1),
                     floor.time.back() - floor.time.front(), response.time.back() - response.time.front()));
-    if (std::abs(t.start_s) > 0.5 * step_s_)
+    if (std::abs(t.start_s) > 0.5 * step_s)
       say(fmt::format("{}: time 0 is now what was {:.6g} s in {}", lab.id, t.start_s,
                       lab.floor.path.filename().string()));
     // At a share s between two samples white noise keeps (s^2 + (1 - s)^2)^(1/2), in the mean of its square 2/3.
-    if (std::abs(response.step_s / step_s_ - 1) > 1e-3)
+    if (std::abs(response.step_s / step_s - 1) > 1e-3)
       say(
           fmt::format("{}: {} is read between its samples, on straight lines: white noise keeps some 0.82 of its size "
                       "there, and is alike from step to step; compare will say so",
                       lab.id, response.table.file.filename().string()));
     for (const File* file : {&floor, &response})
-      if (step_s_ > 1.5 * file->step_s)
+      if (step_s > 1.5 * file->step_s)
         say(fmt::format(
             "{}: of {} one row in {:.3g} is taken, and what is faster than {:.3g} Hz seems slower: filter it "
             "first, or leave sampling_dt_s out",
-            lab.id, file->table.file.filename().string(), step_s_ / file->step_s, 0.5 / step_s_));
+            lab.id, file->table.file.filename().string(), step_s / file->step_s, 0.5 / step_s));
     std::vector<std::string> unused;
     const auto see = [&](const LabTable& table, const std::vector<const LabColumn*>& used) {
       for (const std::string& name : table.columns)
@@ -248,6 +264,11 @@ class Importer {
       see(response.table, of_response);
     see(floor.table, of_floor);
     if (!unused.empty()) say(fmt::format("{}: not used: {}", lab.id, fmt::join(unused, ", ")));
+    for (const LabTable* table : {&floor.table, &response.table})
+      if (!table->with_comma.empty() && (table == &floor.table || !one_file))
+        say(fmt::format("{}: commas of {} are taken as decimal points: {} is {}", lab.id,
+                        table->file.filename().string(), table->with_comma,
+                        std::string(table->with_comma).replace(table->with_comma.find(','), 1, ".")));
     tell_gaps(lab, floor, lab.floor);
     if (!one_file) tell_gaps(lab, response, lab.response);
     for (const LabColumn* column : {&lab.floor.time, &lab.acceleration, if_there(lab.vertical)})
@@ -269,9 +290,8 @@ class Importer {
                                    file.table.lines[i], file.time[i]));
     }
     if (count > 0)
-      say(fmt::format("{}: {} has {} gap{} in its rows, filled by straight lines: {}{}", lab.id,
-                      of.path.filename().string(), count, count == 1 ? "" : "s", fmt::join(gaps, ", "),
-                      count > most_told ? " ..." : ""));
+      say(fmt::format("{}: {} lacks {} row{}, filled by straight lines: {}{}", lab.id, of.path.filename().string(),
+                      count, count == 1 ? "" : "s", fmt::join(gaps, ", "), count > most_told ? " ..." : ""));
   }
 
   // "(mm)", "[mm]" -> "mm".
@@ -309,15 +329,16 @@ class Importer {
 
   // Samples that are read between those of a slower floor hide its noise. White noise of sigma at a step of h shakes a block as that of
   // sigma sqrt(h/k) at a step of k does: both have the spectrum sigma^2 h.
-  void see_floor_noise(const LabTest& lab, const File& floor) {
-    const double own_s = (floor.time.back() - floor.time.front()) / static_cast<double>(floor.time.size() - 1);
-    if (own_s < 1.01 * step_s_) return;  // a clock's rounding, and half a percent of noise
+  void see_floor_noise(const LabTest& lab, const File& floor, double step_s) {
+    const double own_s = floor.step_s;
+    if (own_s < 1.01 * step_s) return;  // a clock's rounding, and half a percent of noise
     slow_floor_s_ = own_s;
+    slow_floor_step_s_ = step_s;
     const double given = lab_.noise.floor_acceleration_mps2;
     const bool heard = given <= 0 && measurement::is_smooth(floor.step_s);
     const double own = heard ? measurement::slow_noise(channel(floor.table, lab.acceleration), floor.step_s)
                              : noise_of(floor, lab.acceleration, given);
-    const double noise = std::sqrt(own_s / step_s_) * own;
+    const double noise = std::sqrt(own_s / step_s) * own;
     // The least of the tests, as one sensor reads them.
     slow_floor_noise_ = slow_floor_noise_ > 0 ? std::min(slow_floor_noise_, noise) : noise;
   }
@@ -338,13 +359,13 @@ class Importer {
           fmt::format("the floor is sampled every {:.4g} s, and read between its samples every {:.4g} s: its noise is "
                       "told as {:.3g} m/s2, white noise "
                       "at that step that moves a block as far",
-                      slow_floor_s_, step_s_, slow_floor_noise_));
+                      slow_floor_s_, slow_floor_step_s_, slow_floor_noise_));
     }
   }
 
   const Laboratory& lab_;
-  double step_s_ = 0;
-  double slow_floor_s_ = 0, slow_floor_noise_ = 0;  // where the floor is sampled more slowly than that
+  double slow_floor_s_ = 0, slow_floor_step_s_ = 0,
+         slow_floor_noise_ = 0;  // where it is sampled more slowly than the response
   measurement::Noise noise_;
   std::vector<TestOfLab> tests_;
   Imported out_;

@@ -13,20 +13,20 @@ using Series = std::vector<double>;
 struct File {
   LabTable table;
   Series time;
-  double step_s = 0;  // the middle one
+  double step_s = 0;  // the usual one
 };
 
-// Throws Error (Exit::data): too few rows, or times that do not rise.
+// Throws Error (Exit::data): too few rows, times that do not rise, or two rows and more that are missing in a row.
 File read_file(const LabFile&);
 
 // A channel, in SI, at the file's own times. Throws Error (Exit::data) where there is none of that name, or two.
 Series channel(const LabTable&, const LabColumn&);
 
-// Are rows missing before this one? Its step is more than one and a half of the usual one.
+// Is a row missing before this one?
 bool is_behind_gap(const File&, std::size_t row);
 
-// A channel at start, start + step, ...: between its samples on straight lines; of a floor as it is taken between its readings, but for
-// files with gaps, which straight lines fill.
+// A channel at start, start + step, ...: as it was read where it was read then; between its samples on straight lines, or of a floor as it is
+// taken between its readings, but for files that lack rows, which straight lines fill.
 Series at_times(const File&, const Series& time, const LabColumn&, double start, double step_s, std::size_t count);
 Series floor_at_times(const File& floor, const LabColumn&, double start, double step_s, std::size_t count);
 

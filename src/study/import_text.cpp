@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "study/yaml_text.hpp"
 
 namespace freestand::study {
 
-std::string dataset_text(const Laboratory& lab, const measurement::Noise& noise_of_set, double step_s,
+std::string dataset_text(const Laboratory& lab, const measurement::Noise& noise_of_set,
                          const std::vector<TestOfLab>& tests) {
   std::string text = fmt::format("format: freestand-measurements/1\nname: {}\n", yaml_text(lab.name));
   if (lab.specimen != measurement::Dimensions{}) text += "specimen:\n";
@@ -15,7 +17,10 @@ std::string dataset_text(const Laboratory& lab, const measurement::Noise& noise_
   };
   put("width_m", lab.specimen.width_m), put("height_m", lab.specimen.height_m), put("mass_kg", lab.specimen.mass_kg),
       put("centre_height_m", lab.specimen.centre_height_m), put("gyration_radius_m", lab.specimen.gyration_radius_m);
-  text += fmt::format("sampling_dt_s: {}\nnoise:\n", step_s);
+  const double step_s = tests.front().test.dt_s;
+  if (std::ranges::all_of(tests, [&](const TestOfLab& t) { return t.test.dt_s == step_s; }))
+    text += fmt::format("sampling_dt_s: {}\n", step_s);
+  text += "noise:\n";
   const auto noise = [&](const char* key, double value) {
     if (value > 0) text += fmt::format("  {}: {:.4g}\n", key, value);
   };
@@ -26,8 +31,9 @@ std::string dataset_text(const Laboratory& lab, const measurement::Noise& noise_
       fmt::format("tolerance: {{width: {}, centre_height: {}, floor_gain: {}, clock_s: {}}}\ntests:\n",
                   lab.tolerance.width, lab.tolerance.centre_height, lab.tolerance.floor_gain, lab.tolerance.clock_s);
   for (const TestOfLab& t : tests)
-    text += fmt::format("  - {{id: {}, file: {}, role: {}}}\n", yaml_text(t.test.id), yaml_text(t.test.id + ".csv"),
-                        t.test.role == measurement::Role::holdout ? "holdout" : "calibration");
+    text += fmt::format("  - {{id: {}, file: {}, role: {}{}}}\n", yaml_text(t.test.id), yaml_text(t.test.id + ".csv"),
+                        t.test.role == measurement::Role::holdout ? "holdout" : "calibration",
+                        t.test.steps_a_reading > 1 ? fmt::format(", steps_a_reading: {}", t.test.steps_a_reading) : "");
   return text;
 }
 

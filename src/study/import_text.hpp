@@ -15,7 +15,7 @@ struct TestOfLab {
   std::vector<double> floor, vertical;
 };
 
-std::string dataset_text(const Laboratory&, const measurement::Noise&, double step_s, const std::vector<TestOfLab>&);
+std::string dataset_text(const Laboratory&, const measurement::Noise&, const std::vector<TestOfLab>&);
 std::string csv_text(const TestOfLab&);
 
 }  // namespace freestand::study

@@ -107,6 +107,31 @@ class Import(InFolder):
         text = (self.folder / "compared" / "comparison.json").read_text(encoding="utf-8")
         self.assertIn('"role": "holdout"', text)
 
+    def test_a_sensor_that_is_read_in_steps_comes_as_it_was_read(self):
+        """Steps of the sensor, and readings that repeat, are those of its own rate: nothing between them is taken for one."""
+        study = self.write("study.yaml", "measurements: set/dataset.yaml\nmodel: {friction: {mu: {calibrate: [0.03, 1.2]}}}\n")
+        for digits, told, not_told in ((0, "slip_m is read in steps of 0.001 m", "stays at one value"), (2, "", "stays at one value")):
+            for name, truth in self.truth.items():
+                rows = [f"{10 * i};{comma(-1000 * row['slip_m'], digits)};" for i, row in enumerate(truth[::2])]
+                self.write(f"block_{name}.csv", "t_ms;LVDT 1;\n" + "\n".join(rows) + "\n")
+            self.imported("set", "--overwrite", "--quiet")
+            self.assertIn("steps_a_reading: 2", (self.folder / "set" / "dataset.yaml").read_text(encoding="utf-8"))
+            read = [row["slip_m"] for row in self.rows("t01")][::2]
+            self.assertTrue(all(value == round(value, 3 + digits) for value in read[:1000]))
+            said = self.succeed(["compare", study, "-o", self.folder / "compared", "--overwrite"]).stdout
+            self.assertIn(told, said)
+            self.assertNotIn(not_told, said)
+
+    def test_each_test_keeps_its_own_step(self):
+        """One of twice the rate, and one whose clock is read to whole milliseconds, make no other test a finer one."""
+        rows = [f"{5 * i + (i % 3 == 0)};{comma(-1000 * row['slip_m'])};" for i, row in enumerate(self.truth["t01"])]
+        self.write("block_t01.csv", "t_ms;LVDT 1;\n" + "\n".join(rows) + "\n")
+        fine = [f"{0.0025 * i:.4f}\t{self.truth['t02'][i // 2]['floor_acceleration_mps2'] / G:.9f}\t20" for i in range(2 * len(self.truth["t02"]))]
+        self.write("table t02.txt", "Time (s)\tACC1\tTemp\n(s)\t(g)\t(C)\n" + "\n".join(fine) + "\n")
+        self.imported()
+        self.assertNotIn("sampling_dt_s", (self.folder / "set" / "dataset.yaml").read_text(encoding="utf-8"))
+        self.assertEqual([self.rows(name)[1]["time_s"] for name in self.truth], [0.005, 0.0025, 0.005])
+
     def test_rotation_alone(self):
         text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
         self.write("lab.yaml", text.replace("slip: {column: LVDT 1, unit: mm", "rotation: {column: LVDT 1, unit: mrad").replace("slip_m:", "rotation_rad:"))
@@ -153,8 +178,8 @@ class Import(InFolder):
         """Rows that are missing, a unit that nobody gave, one that is another than the column's name says, and clocks in step."""
         text = self.lab.read_text(encoding="utf-8")
         block = (self.folder / "block_t01.csv").read_text(encoding="utf-8").split("\n")
-        self.write("block_t01.csv", "\n".join(block[:40] + block[50:]))
-        self.assertIn("t01: block_t01.csv has 1 gap in its rows, filled by straight lines: 0.11 s before line 41", self.imported().stdout)
+        self.write("block_t01.csv", "\n".join(block[:40] + block[41:]))
+        self.assertIn("t01: block_t01.csv lacks 1 row, filled by straight lines: 0.02 s before line 41", self.imported().stdout)
         self.write("lab.yaml", text.replace("acceleration: {column: ACC1, unit: g}", "acceleration: ACC1"))
         self.fail_with(3, ["import", self.lab, "-o", self.folder / "in_g"], "t01: ACC1 has g in its line of units", "without it m/s2 would be taken")
         for name in self.truth:
@@ -213,6 +238,8 @@ class Import(InFolder):
         block = (self.folder / "block_t01.csv").read_text(encoding="utf-8").split("\n")
         self.write("block_t01.csv", "\n".join(block[:40] + [block[40].rsplit(";", 2)[0] + ";NaN;"] + block[41:]))
         self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "NaN in column LVDT 1 is no finite number")
+        self.write("block_t01.csv", "\n".join(block[:40] + block[50:]))
+        self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "0.1 s are missing before this line", "cut the file there")
         self.write("block_t01.csv", "\n".join(block[:40] + block[39:]))
         self.fail_with(3, changed("nothing", ""), "block_t01.csv:41", "time does not rise")
         self.write("block_t01.csv", "\n".join(block[:40] + ["1,5"] + block[41:]))

@@ -56,6 +56,8 @@ struct Test {
   double stretch = 1;  // of time: the period of a pulse
   std::string pulse;   // its name; empty: a measured motion
   double dt_s = 0;     // of the histories
+  // The response was read once in so many of them, at the first and every so many behind, and stands on straight lines between.
+  int steps_a_reading = 1;
 
   // Histories from time 0 on, in steps of dt_s, equally long; empty: not measured. slip_m: horizontal displacement of
   // the midpoint of the base relative to the floor [m]; rotation positive clockwise [rad]; block_acceleration: absolute,

@@ -40,7 +40,8 @@ std::size_t samples_before_motion(const Bench& bench, const Test& test) {
 }  // namespace
 
 double frozen_s(const Bench& bench, std::size_t i, Channel channel) {
-  const auto& samples = history(bench.test(i), channel);
+  const Test& test = bench.test(i);
+  const std::vector<double> samples = readings(test, channel);
   const double noise = bench.noise(channel) * bench.sensor(channel).size();
   if (samples.size() < 2 || noise <= 0) return 0;
   const auto [least, most] = std::minmax_element(samples.begin(), samples.end());
@@ -58,7 +59,7 @@ double frozen_s(const Bench& bench, std::size_t i, Channel channel) {
   const auto n = static_cast<double>(samples.size());
   const double repeated = std::max(step / (2 * std::sqrt(std::numbers::pi) * noise), 1 / n);
   if (repeated >= 1 || n * std::pow(repeated, static_cast<double>(longest - 1)) > 1e-6) return 0;
-  return static_cast<double>(longest) * bench.test(i).dt_s;
+  return static_cast<double>(longest) * test.steps_a_reading * test.dt_s;
 }
 
 bool same_history(const Bench& bench, std::size_t i, std::size_t other, Channel channel) {

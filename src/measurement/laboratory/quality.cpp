@@ -123,7 +123,7 @@ void look_at_sensors(const Bench& bench, Quality& quality) {
     constexpr double worth_a_word = 0.1;  // a size that is nearer to what is stated changes no error in its first digit
     double step = 0;
     for (const std::size_t i : tests_of(bench.data(), Role::calibration))
-      step = std::max(step, resolution(history(bench.test(i), channel)));
+      step = std::max(step, resolution(readings(bench.test(i), channel)));
     const bool different = std::abs(std::log(sensor.size())) > worth_a_word;
     if (different && noise * sensor.size() < 1.001 * step / std::sqrt(12.0))
       quality.findings.push_back(

@@ -209,7 +209,7 @@ void Bench::estimate_sensors() {
     const auto channel = static_cast<Channel>(c);
     double rounded = 0;
     for (const Test& test : data_.tests)
-      if (test.role == Role::calibration) rounded = std::max(rounded, rounding(history(test, channel)));
+      if (test.role == Role::calibration) rounded = std::max(rounded, rounding(readings(test, channel)));
     sensors_[c] = sensor_of(quiet_stretches(data_, channel), noise(channel) > 0 ? rounded / noise(channel) : 0);
     if (channel == Channel::block_acceleration) leave_out_floor(sensors_[c]);
   }

@@ -1,0 +1,78 @@
+#include "base/lab_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <freestand/error.hpp>
+#include <fstream>
+
+namespace freestand::lab_table_test {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class LabTables : public testing::Test {
+ protected:
+  ~LabTables() override { std::filesystem::remove(file_); }
+  LabTable read(const std::string& text) const {
+    std::ofstream(file_, std::ios::binary) << text;
+    return read_lab_table(file_);
+  }
+  std::string problem(const std::string& text) const {
+    try {
+      read(text);
+    } catch (const Error& error) {
+      EXPECT_EQ(error.exit(), Exit::data);
+      return error.what();
+    }
+    return "";
+  }
+  const std::filesystem::path file_ =
+      std::filesystem::temp_directory_path() /
+      ("freestand-lab-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
+};
+
+TEST_F(LabTables, NamesStandRightAboveTheNumbersOrAboveTheirUnits) {
+  for (const char* text : {"t,lv\n0,1\n1,2\n", "Cabinet test, 12 May\nt,lv\n0,1\n1,2\n", "t,lv\n(s),(mm)\n0,1\n1,2\n",
+                           "Cabinet test, 12 May\nt,lv\ns,mm\n0,1\n1,2\n", "run 7\n\nt,lv,\n0,1,\n1,2,\n",
+                           "t;lv\n0,0;1,0\n1,0;2,0\n", "t\tlv\r\n0\t1\r\n1\t2\r\n", "t lv\n 0  1\n 1  2\n"}) {
+    SCOPED_TRACE(text);
+    const LabTable table = read(text);
+    EXPECT_THAT(table.columns, ElementsAre("t", "lv"));
+    EXPECT_THAT(table.values, ElementsAre(ElementsAre(0, 1), ElementsAre(1, 2)));
+  }
+  EXPECT_THAT(read("t,lv\n[s],[mm]\n0,1\n1,2\n").units, ElementsAre("[s]", "[mm]"));
+  EXPECT_THAT(read("0,1\n1,2\n").columns, ElementsAre("1", "2"));
+  EXPECT_THAT(read("\"t, s\",\"lv, mm\"\n0,1\n1,2\n").columns, ElementsAre("t, s", "lv, mm"));
+}
+
+// Dates, words and cells that are empty are flaws of their own columns alone.
+TEST_F(LabTables, ColumnsMayHoldWords) {
+  const LabTable table = read("t,when,lv,note\n0,12:00:01,1,ok\n1,12:00:02,2,\n2,12:00:03,--,ok\n");
+  EXPECT_THAT(table.columns, ElementsAre("t", "when", "lv", "note"));
+  EXPECT_THAT(table.values[0], ElementsAre(0, 1, 2));
+  EXPECT_EQ(table.flaws[0], "");
+  EXPECT_THAT(table.flaws[1], HasSubstr(":2: 12:00:01 in column when is no finite number"));
+  EXPECT_THAT(table.flaws[2], HasSubstr(":4: -- in column lv"));
+  EXPECT_TRUE(std::isnan(table.values[2][2]));
+  // A first row that lacks some, and a last column without names' end.
+  EXPECT_THAT(read("t,lv\n0,--\n1,2\n2,3\n").values[0], ElementsAre(0, 1, 2));
+  EXPECT_THAT(read("t,lv,note\n0,1,\n1,2,\n").columns, ElementsAre("t", "lv", "note"));
+}
+
+TEST_F(LabTables, ADecimalCommaIsShown) {
+  EXPECT_EQ(read("t;lv\n0;44,600\n1;2\n").with_comma, "44,600");
+  EXPECT_EQ(read("t,lv\n0,44\n1,2\n").with_comma, "");
+}
+
+TEST_F(LabTables, WhatIsNoTableIsRefused) {
+  EXPECT_THAT(problem("t,lv\nnothing,here\n"), HasSubstr("holds no table of numbers"));
+  EXPECT_THAT(problem(std::string("t,lv\n0,1\n\0,2\n", 12)), HasSubstr("is no text"));
+  EXPECT_THAT(problem("t,lv\n0,1\n1,2,3\n"), HasSubstr(":3: 3 cells where the table has 2 columns"));
+  EXPECT_THAT(problem("t,lv\n0,1\n1\n"), HasSubstr(":3: 1 cells where the table has 2 columns"));
+}
+
+}  // namespace
+}  // namespace freestand::lab_table_test
