@@ -31,7 +31,7 @@ def title(diagnosis, was=False):
     if diagnosis.proposal:
         return (f"no effect of the catalogue explains it; {validation.effect(diagnosis.proposal['effect'])}, a law of no catalogue, "
                 f"leaves {_error(diagnosis.proposal)} of {_error(diagnosis.base)}")
-    return {WITHDRAWN: "no verdict, since the measurements look wrong in a sign, a clock, a unit or a dimension",
+    return {WITHDRAWN: "no verdict, since the measurements look wrong in a sign, a clock, a unit, an offset or a dimension",
             "none_helps": "the model misses more than noise explains, and no effect of the catalogue predicts the tests left out better, beyond chance",
             "none_suffices": "no effect of the catalogue explains all that the model misses"}.get(
                 diagnosis.reason, "the model lacks something that no effect of the catalogue explains")

@@ -8,7 +8,6 @@
 #include <fstream>
 #include <limits>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "base/shown_text.hpp"
@@ -23,7 +22,7 @@ std::string without_blanks(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-// Blanks: runs of them count as one. What stands in quotes is one cell.
+// Blanks: runs of them count as one. What stands in quotes is one cell. A separator at the end of a line makes none.
 Cells cells_of(const std::string& line, char separator) {
   Cells cells;
   std::string cell;
@@ -32,8 +31,10 @@ Cells cells_of(const std::string& line, char separator) {
     if (separator != ' ' || !without_blanks(cell).empty()) cells.push_back(without_blanks(cell));
     cell.clear();
   };
-  for (const char c : line) {
-    if (c == '"' && (quoted || without_blanks(cell).empty())) quoted = !quoted;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && (quoted || (without_blanks(cell).empty() && line.find('"', i + 1) != std::string::npos)))
+      quoted = !quoted;
     const bool ends = !quoted && (separator == ' ' ? c == ' ' || c == '\t' || c == '\r' : c == separator);
     if (ends)
       end_cell();
@@ -41,6 +42,7 @@ Cells cells_of(const std::string& line, char separator) {
       cell += c;
   }
   end_cell();
+  if (cells.size() > 1 && cells.back().empty()) cells.pop_back();
   return cells;
 }
 
@@ -60,25 +62,11 @@ struct Way {
 // The first that makes numbers of a line wins: "1,5;2,5" is no line of commas, and "1,5 2,5" none either.
 constexpr Way ways[] = {{';', true}, {'\t', true}, {',', false}, {' ', true}};
 
-// Which cells of a line are numbers.
-std::vector<bool> numbers_in(const Cells& cells, bool decimal_comma) {
-  std::vector<bool> found;
-  for (const std::string& cell : cells) found.push_back(number(cell, decimal_comma).has_value());
-  return found;
-}
-
-// "(mm)", "[m/s^2]", "s", or nothing: of a line of units, not of names.
-bool is_unit(const std::string& cell) {
-  if (cell.empty() || cell == "-" || (cell.front() == '(' && cell.back() == ')') ||
-      (cell.front() == '[' && cell.back() == ']'))
-    return true;
-  constexpr std::string_view units[] = {
-      "s",     "sec",    "ms",  "us",  "min",  "hz",  "g",      "mg",      "gal",  "m",     "mm",    "cm",
-      "um",    "in",     "ft",  "rad", "mrad", "deg", "degree", "degrees", "m/s2", "m/s^2", "cm/s2", "cm/s^2",
-      "mm/s2", "mm/s^2", "m/s", "v",   "mv",   "c",   "kg",     "n",       "kn",   "%",     "1"};
-  std::string lower;
-  for (const char c : cell) lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::ranges::find(units, lower) != std::end(units);
+// What stands for a number that is not there: "", "--", "NaN".
+bool is_mark(std::string cell) {
+  for (char& c : cell) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return cell == "nan" || cell == "inf" || cell == "-inf" || cell == "null" || cell == "na" || cell == "n/a" ||
+         std::ranges::none_of(cell, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || (c & 0x80); });
 }
 
 struct Line {
@@ -104,25 +92,47 @@ std::vector<Line> lines_of(const std::filesystem::path& file) {
 struct Beginning {
   std::size_t line;  // the first of the numbers
   Way way;
+  std::size_t count;  // cells of a line
 };
 
-// A line begins the table if it and the next one have as many cells, two and more of which are numbers in both, or one in the first and two in
-// the next: names, units and titles hold none where numbers stand below, and a first row may lack some.
+// Of this line and those behind it, as far as they are looked at: do at least half have as many cells as it, and which of its cells are numbers
+// in at least half?
+struct Usual {
+  bool as_many = false;
+  std::vector<bool> numbers;
+
+  Usual(const std::vector<Line>& lines, std::size_t from, const Way& way) {
+    constexpr std::size_t looked_at = 12;
+    const std::size_t end = std::min(lines.size(), from + looked_at);
+    std::vector<Cells> all;
+    for (std::size_t i = from; i < end; ++i) all.push_back(cells_of(lines[i].text, way.separator));
+    const std::size_t count = all.front().size();
+    const auto in_half = [&](const auto& is) {
+      return 2 * static_cast<std::size_t>(std::ranges::count_if(all, is)) >= all.size();
+    };
+    as_many = in_half([&](const Cells& cells) { return cells.size() == count; });
+    for (std::size_t k = 0; k < count; ++k)
+      numbers.push_back(
+          in_half([&](const Cells& cells) { return k < cells.size() && number(cells[k], way.decimal_comma); }));
+  }
+};
+
+// The first line that has numbers, or marks in their place, where most of the lines behind it have numbers, in two columns and more: names,
+// units and titles have words there.
 std::optional<Beginning> beginning_of(const std::vector<Line>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i)
     for (const Way& way : ways) {
       const Cells here = cells_of(lines[i].text, way.separator);
-      if (here.size() < 2) continue;
-      const std::vector<bool> numbers = numbers_in(here, way.decimal_comma);
-      const auto count = std::ranges::count(numbers, true);
-      if (count == static_cast<long>(here.size())) return Beginning{i, way};
-      if (count == 0 || i + 1 == lines.size()) continue;
-      const Cells next = cells_of(lines[i + 1].text, way.separator);
-      if (next.size() != here.size()) continue;
-      const std::vector<bool> below = numbers_in(next, way.decimal_comma);
-      bool within = std::ranges::count(below, true) >= 2;
-      for (std::size_t k = 0; k < here.size(); ++k) within = within && (!numbers[k] || below[k]);
-      if (within) return Beginning{i, way};
+      if (here.size() < 2 || std::ranges::none_of(here, [&](const std::string& cell) {
+            return number(cell, way.decimal_comma).has_value();
+          }))
+        continue;
+      const Usual usual(lines, i, way);
+      if (!usual.as_many || std::ranges::count(usual.numbers, true) < 2) continue;
+      bool begins = true;
+      for (std::size_t k = 0; k < here.size(); ++k)
+        begins = begins && (!usual.numbers[k] || number(here[k], way.decimal_comma) || is_mark(here[k]));
+      if (begins) return Beginning{i, way, here.size()};
     }
   return {};
 }
@@ -133,48 +143,43 @@ std::size_t LabTable::column(const std::string& name) const {
   return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), name) - columns.begin());
 }
 
-LabTable read_lab_table(const std::filesystem::path& file) {
+LabTable read_lab_table(const std::filesystem::path& file, const std::string& a_column) {
   const std::vector<Line> lines = lines_of(file);
   const std::optional<Beginning> begins = beginning_of(lines);
   if (!begins) throw Error(file.string() + " holds no table of numbers: export it as text with columns", Exit::data);
-  const auto& [first, way] = *begins;
+  const Way& way = begins->way;
+  const auto above = [&](std::size_t so_many) {
+    return so_many <= begins->line ? cells_of(lines[begins->line - so_many].text, way.separator) : Cells{};
+  };
   LabTable table;
   table.file = file;
-  const auto cells_at = [&, &at = first](std::size_t above) {
-    return above <= at ? cells_of(lines[at - above].text, way.separator) : Cells{};
+  // The names stand right above, or with a line of units between; which of the two the column tells that is looked for.
+  Cells names = above(1), units = above(2);
+  // Names of more columns than most rows fill: the last of them is empty there.
+  const std::size_t count = std::max(names.size(), units.size()) == begins->count + 1 &&
+                                    without_blanks(lines[begins->line].text).ends_with(way.separator)
+                                ? begins->count + 1
+                                : begins->count;
+  const auto fits = [&](const Cells& cells) { return cells.size() == count; };
+  const auto tells = [&](const Cells& cells) {
+    return fits(cells) && std::ranges::find(cells, a_column) != cells.end();
   };
-  // A separator at the end of every line makes no column.
-  std::size_t count = cells_at(0).size();
-  bool none_behind = true;
-  for (std::size_t i = first; i < lines.size() && none_behind; ++i) {
-    const Cells cells = cells_of(lines[i].text, way.separator);
-    none_behind = cells.size() < count || cells[count - 1].empty();
-  }
-  Cells names = cells_at(1), units;
-  const bool named_behind = names.size() == count && !names.back().empty();
-  if (none_behind && count > 1 && !named_behind) --count;
-  const auto cut = [&](Cells& cells) {
-    if (cells.size() == count + 1 && cells.back().empty()) cells.pop_back();
-  };
-  cut(names);
-  // The names stand right above, or with a line of units between.
-  const auto units_in = 2 * std::ranges::count_if(names, is_unit);
-  if (Cells above = cells_at(2); names.size() == count && units_in > static_cast<long>(count)) {
-    cut(above);
-    if (above.size() == count) units = std::exchange(names, above);
-  }
-  if (names.size() != count) {
+  if (fits(units) && (tells(units) || !tells(names)))
+    std::swap(names, units);
+  else
+    units.clear();
+  if (!fits(names)) {
     names.clear();
     for (std::size_t i = 0; i < count; ++i) names.push_back(std::to_string(i + 1));
   }
+  if (fits(units)) table.units = units;
   table.columns = names;
-  table.units = units;
   table.values.resize(count);
   table.flaws.resize(count);
-  for (std::size_t i = first; i < lines.size(); ++i) {
+  for (std::size_t i = begins->line; i < lines.size(); ++i) {
     Cells cells = cells_of(lines[i].text, way.separator);
-    cut(cells);
     const std::string place = file.string() + ":" + std::to_string(lines[i].number) + ": ";
+    if (cells.size() + 1 == count && without_blanks(lines[i].text).ends_with(way.separator)) cells.emplace_back();
     if (cells.size() != count)
       throw Error(place + std::to_string(cells.size()) + " cells where the table has " + std::to_string(count) +
                       " columns: complete or remove the line",

@@ -24,6 +24,7 @@ struct LabTable {
 };
 
 // Throws Error (Exit::data) that names file and line: no numbers, or a row with another number of cells.
-LabTable read_lab_table(const std::filesystem::path& file);
+// a_column: one of its names, by which the line of names is known; "": the upper one of two lines that may be.
+LabTable read_lab_table(const std::filesystem::path& file, const std::string& a_column = "");
 
 }  // namespace freestand

@@ -141,32 +141,67 @@ class Reached {
   double from_ = 0, to_ = 0;
 };
 
-struct AtEqualProbability {
-  double p, most;  // most: that all curves reach
-};
+bool is_negative(double weight) { return weight < 0; }
 
-// The p at which the weighed ln of the intensities at which the curves reach it is that of im.
-AtEqualProbability at_equal_probability(std::span<const Reading> curves, std::span<const double> weights, double im,
-                                        double Probability::*member, double Probability::*opposite) {
-  std::vector<Reached> reached;
-  double most = 1;
-  for (std::size_t i = 0; i < curves.size(); ++i) {
-    reached.emplace_back(curves[i], weights[i] < 0 ? opposite : member);
-    most = std::min(most, reached.back().most());
+// P of curves at equal probability: that of which the weighed ln of the intensities at which they reach it is that of im. With a negative
+// weight that sum need not rise with P, where the curve that is taken off hardly does. Then the largest sum of all smaller P counts, and
+// for an upper end the smallest one of all larger P: the answer rises, and its band holds what lies between.
+class AtEqualProbability {
+ public:
+  AtEqualProbability(std::span<const Reading> curves, std::span<const double> weights, double Probability::*member,
+                     double Probability::*opposite)
+      : upper_(member == &Probability::upper) {
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+      if (weights[i] == 0) continue;
+      reached_.emplace_back(curves[i], weights[i] < 0 ? opposite : member);
+      weights_.push_back(weights[i]);
+      most_ = std::min(most_, reached_.back().most());
+    }
+    if (!std::ranges::any_of(weights, is_negative)) return;
+    for (int i = 1; i < looks; ++i) {
+      looked_at_.push_back(most_ * gsl_cdf_ugaussian_P(-5 + 10.0 * i / looks));
+      sums_.push_back(ln_im(looked_at_.back()));
+    }
+    rises_ = sums_.back() > sums_.front();
+    if (upper_)
+      for (std::size_t i = sums_.size() - 1; i > 0; --i) sums_[i - 1] = std::min(sums_[i - 1], sums_[i]);
+    else
+      for (std::size_t i = 1; i < sums_.size(); ++i) sums_[i] = std::max(sums_[i], sums_[i - 1]);
   }
-  const auto is_reached = [&](double p) {
+
+  double most() const { return most_; }  // that all curves reach
+  bool rises() const { return rises_; }  // on the whole
+  double operator()(double im) const {
+    if (is_reached(most_, im)) return most_;
+    double below = 0, above = most_;
+    for (int i = 0; i < halvings; ++i) {
+      const double middle = 0.5 * (below + above);
+      (is_reached(middle, im) ? below : above) = middle;
+    }
+    return below;
+  }
+
+ private:
+  static constexpr int looks = 60;
+  double ln_im(double p) const {
     double sum = 0;
-    for (std::size_t i = 0; i < curves.size(); ++i) sum += weights[i] * reached[i].ln_im(p);
-    return sum <= std::log(im);
-  };
-  if (is_reached(most)) return {most, most};
-  double below = 0, above = most;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (below + above);
-    (is_reached(middle) ? below : above) = middle;
+    for (std::size_t i = 0; i < reached_.size(); ++i) sum += weights_[i] * reached_[i].ln_im(p);
+    return sum;
   }
-  return {below, most};
-}
+  bool is_reached(double p, double im) const {
+    const auto beyond = std::ranges::upper_bound(looked_at_, p);
+    const auto next = static_cast<std::size_t>(beyond - looked_at_.begin());
+    double sum = ln_im(p);
+    if (upper_ && next < sums_.size()) sum = std::min(sum, sums_[next]);
+    if (!upper_ && next > 0) sum = std::max(sum, sums_[next - 1]);
+    return sum <= std::log(im);
+  }
+
+  bool upper_, rises_ = true;
+  std::vector<Reached> reached_;
+  std::vector<double> weights_, looked_at_, sums_;
+  double most_ = 1;
+};
 
 }  // namespace
 
@@ -176,27 +211,28 @@ Probability between(std::span<const Curve* const> curves, std::span<const double
   if (readings.size() == 1) return readings.front()(im);
   std::vector<Probability> here;
   for (const Reading& reading : readings) here.push_back(reading(im));
+  const Probability at_im = blend(here, weights);
   if (std::ranges::any_of(readings, [](const Reading& r) { return !r.known() || r.falls_from_the_start(); }))
-    return blend(here, weights);
-  const auto equal = [&](double Probability::*member, double Probability::*opposite) {
-    return at_equal_probability(readings, weights, im, member, opposite);
-  };
-  const auto [value, most] = equal(&Probability::value, &Probability::value);
-  Probability p{value, equal(&Probability::lower, &Probability::upper).p,
-                equal(&Probability::upper, &Probability::lower).p, 0};
-  for (const Probability& one : here) p.resolution = std::max(p.resolution, one.resolution);
-  if (value < most) return p;
-  // More than the least of them reaches: none tells at which intensity it comes.
-  if (std::ranges::any_of(weights, [](double weight) { return weight < 0; })) {
-    p.upper = 1;
-    return p;
+    return at_im;
+  const AtEqualProbability value(readings, weights, &Probability::value, &Probability::value),
+      lower(readings, weights, &Probability::lower, &Probability::upper),
+      upper(readings, weights, &Probability::upper, &Probability::lower);
+  const bool outside = std::ranges::any_of(weights, is_negative);
+  if (!value.rises()) return {at_im.value, 0, 1, at_im.resolution};
+  Probability p{value(im), lower(im), upper(im), at_im.resolution};
+  if (p.value == value.most()) {
+    // More than the least of them reaches: none tells at which intensity it comes.
+    const auto mean = [&](double Probability::*member) {
+      double sum = 0;
+      for (std::size_t i = 0; i < here.size(); ++i)
+        sum += weights[i] * gsl_cdf_ugaussian_Pinv(drawn_in(here[i].*member, here[i].resolution));
+      return gsl_cdf_ugaussian_P(sum);
+    };
+    p.value = outside ? p.value : std::max(p.value, mean(&Probability::value));
+    p.upper = outside ? 1 : std::max(p.upper, mean(&Probability::upper));
   }
-  double mean = 0;
-  for (std::size_t i = 0; i < here.size(); ++i) {
-    mean += weights[i] * here[i].value;
-    p.upper = std::max(p.upper, here[i].upper);
-  }
-  p.value = std::max(value, mean);
+  p.lower = std::min(p.lower, p.value);
+  p.upper = std::max(p.upper, p.value);
   return p;
 }
 

@@ -87,7 +87,7 @@ class Row {
     row_.by_function = banded(result_, f_, function_, curve);
     if (!counts_.empty()) row_.by_counts = counts_.banded(curve);
     recommend();
-    outside();
+    outside(curve);
     if (row_.refused.empty() && row_.rate().value > 0) split();
     return std::move(row_);
   }
@@ -129,22 +129,24 @@ class Row {
     }
   }
 
-  // What the recommended curve gives before the hazard curve's start; `longer` begins before it.
-  double before_start(const HazardCurve& longer) const {
+  // What the recommended curve gives before the hazard curve's start, or, where nothing exceeds, what it may; `longer` begins before it.
+  double before_start(const HazardCurve& longer, bool nothing, const CurveReach& curve) const {
     const Range before{0, hazard_.first()};
     if (row_.recommended == By::function) return annual_rate(longer, fragility(), before);
-    const ByCounts counts(longer, result_, edp_, capacity_, f_, {risk_.im_least, risk_.im_most});
-    return counts.rate(before) + counts.rate_below(longer, {0, std::min(risk_.im_least, hazard_.first())});
+    ByCounts counts(longer, result_, edp_, capacity_, f_, {risk_.im_least, risk_.im_most});
+    if (nothing) return std::max(0.0, counts.banded(curve).upper - row_.rate().upper);
+    return std::max(0.0, counts.rate(before)) +
+           counts.rate_below(longer, {0, std::min(risk_.im_least, hazard_.first())});
   }
 
-  void outside() {
+  void outside(const CurveReach& curve) {
     const bool function = row_.recommended == By::function;
     if (!function && counts_.empty()) return;
     // Of a demand that no sample exceeds the upper limit stands for the rate: it is all that is told.
     const bool nothing = !(row_.rate().value > 0) && counts_.nothing_counted();
     const double rate = nothing ? row_.rate().upper : row_.rate().value, end = hazard_.annual_rate.back();
     const HazardCurve longer = begun_earlier(hazard_, std::min(hazard_.first(), risk_.im_least) / 100);
-    double beyond = 0, missing = before_start(longer);
+    double beyond = 0, missing = before_start(longer, nothing, curve);
     if (function) {
       beyond = annual_rate(hazard_, fragility(), {0, risk_.im_least});
       if (hazard_.last() > risk_.im_most) beyond += function_.rate(fragility(), {risk_.im_most, Range{}.to});

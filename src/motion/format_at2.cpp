@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <freestand/error.hpp>
+#include <initializer_list>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "motion/component.hpp"
@@ -43,74 +44,69 @@ Size read_size(const RecordText& text, std::size_t line) {
   const std::string_view count = value_of(header, "npts"), dt = value_of(header, "dt");
   if (count.empty() || dt.empty())
     text.fail(line, "NPTS= or DT= without a value (the header is cut): get the file again");
-  const std::string unit =
-      lower_case(std::string(header.substr(static_cast<std::size_t>(dt.data() + dt.size() - header.data()))));
-  const auto behind = split(unit, " \t,");
-  const bool milliseconds = !behind.empty() && (behind.front() == "msec" || behind.front() == "ms");
+  const auto behind = split(header.substr(static_cast<std::size_t>(dt.data() + dt.size() - header.data())), " \t,()");
+  const std::string unit = behind.empty() ? "" : lower_case(behind.front());
+  const bool milliseconds = unit == "ms" || unit.starts_with("msec") || unit.starts_with("milli");
   return {text.count(line, count), text.number(line, dt) * (milliseconds ? 1e-3 : 1)};
 }
 
-bool is_unit(const std::string& word) {
-  try {
-    return acceleration_unit_mps2(word) > 0;
-  } catch (const Error&) {
-    return false;
-  }
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-// Known or not: "cm/s**2", "%g", "milli-g".
+// Of an acceleration, known or not: "cm/s-2", "milli-g". No date, and no pair of directions.
 bool looks_like_unit(const std::string& word) {
-  return is_unit(word) || word.find_first_of("/%*^") != std::string::npos || word.ends_with("-g") || word == "mg" ||
-         word == "cm" || word == "mm" || word == "m" || word == "cms2" || word == "ms2";
+  const bool of_length = is_one_of(word.substr(0, word.find('/')), {"mm", "cm", "m", "in", "ft", "inch", "feet"});
+  return is_acceleration_unit(word) || (of_length && word.find('/') != std::string::npos) ||
+         is_one_of(word, {"mg", "milli-g", "millig", "%g", "cms2", "cms-2", "cm-s2"});
 }
 
-std::vector<std::string> words_of(const std::string& line) {
+struct Said {
+  int rank = 0;  // 0: nothing
+  std::string unit = {};
+};
+
+// The unit that a line tells. Most surely by "IN UNITS OF G. FILTER POINTS: ...", where what stands behind is the unit, whether it is known or
+// not; then by "UNITS: M/S2", or in the line of the motion itself, "ACCELERATION TIME SERIES IN CM/S2", "ACCELERATION (M/S2)"; least by a unit
+// that stands so elsewhere. What a line tells of peaks may be in any unit.
+Said unit_in(const std::string& line) {
   std::vector<std::string> words;
   for (const std::string_view part : split(line, " \t,()[]:=;")) {
     words.emplace_back(part);
     while (words.back().ends_with('.')) words.back().pop_back();
   }
-  return words;
-}
-
-// "IN UNITS OF G. FILTER POINTS: ...": what stands behind is the unit, whether it is known or not.
-std::string named_unit(const std::string& line) {
-  const auto words = words_of(line);
   for (std::size_t i = 2; i < words.size(); ++i)
-    if (words[i - 1] == "of" && words[i - 2] == "units") return words[i];
-  return "";
-}
-
-// "UNITS: M/S2", "TIME SERIES IN CM/S2", "ACCELERATION (M/S2)". One with a slash is one wherever it stands.
-std::string unit_in(const std::string& line) {
-  const auto words = words_of(line);
-  for (std::size_t i = 0; i < words.size(); ++i) {
+    if (words[i - 1] == "of" && words[i - 2] == "units") return {3, words[i]};
+  const auto has = [&](const std::string& word) { return line.find(word) != std::string::npos; };
+  if (has("peak") || has("pga") || has("pgv") || has("maxim")) return {};
+  const bool of_motion = has("accel") || has("time series") || has("time history");
+  Said found;
+  for (std::size_t i = 0; i < words.size() && found.rank < 2; ++i) {
     const std::string &word = words[i], before = i > 0 ? words[i - 1] : "";
-    const bool stated = before == "units" || before == "unit";
-    if (stated && (looks_like_unit(word) || line.find(before + ":") != std::string::npos)) return word;
-    const bool behind = before == "in" || before == "of" || before == "are";
-    const bool enclosed =
-        line.find("(" + word + ")") != std::string::npos || line.find("[" + word + "]") != std::string::npos;
-    const bool of_acceleration =
-        line.find("accel") != std::string::npos || line.find("time series") != std::string::npos;
-    if ((behind || (enclosed && word != "g")) && (of_acceleration ? looks_like_unit(word) : is_unit(word))) return word;
-    if (word.find('/') != std::string::npos && is_unit(word)) return word;
+    const bool stated = is_one_of(before, {"units", "unit"}), behind = is_one_of(before, {"in", "of", "are"});
+    const bool enclosed = word != "g" && (has("(" + word + ")") || has("[" + word + "]"));
+    const bool parted = i + 1 < words.size() && words[i + 1].starts_with('/') && is_one_of(word, {"mm", "cm", "m"});
+    const bool known = is_acceleration_unit(word);
+    if ((stated || (of_motion && (behind || enclosed))) && (looks_like_unit(word) || parted))
+      found = {2, parted ? word + words[i + 1] : word};
+    else if (of_motion && word.find('/') != std::string::npos && known)
+      found = {2, word};
+    else if (found.rank == 0 && (behind || enclosed) && known)
+      found = {1, word};
   }
-  return "";
+  return found;
 }
 
 std::string read_unit(const RecordText& text, std::size_t until) {
-  std::string found;
+  Said found;
   for (std::size_t i = 0; i < until; ++i) {
     const std::string line = lower_case(text.line(i));
     if (line.find("velocity time series") != std::string::npos ||
         line.find("displacement time series") != std::string::npos)
       text.fail(i, "not a record of acceleration (the header says so): use the .AT2 file");
-    if (const std::string unit = named_unit(line); !unit.empty()) return unit;
-    // A station may be called (GAL): the line of the motion itself comes later.
-    if (const std::string unit = unit_in(line); !unit.empty()) found = unit;
+    if (Said said = unit_in(line); said.rank > found.rank) found = std::move(said);
   }
-  return found;
+  return found.unit;
 }
 
 // The last entry of the line of event, date, station and component: "..., Corralitos, UP".

@@ -69,7 +69,9 @@ double choose_unit(const RecordText& text, const RawRecord& raw, const ReadOptio
         fmt::format("{}: the unit of acceleration is not known (the file does not say it): give unit, "
                     "\"g\" or \"m/s2\"",
                     text.path().string()));
-  if (raw.unit.empty()) return acceleration_unit_mps2(options.unit);
+  // A word that is no unit, where the user names one, is none of the file's.
+  if (raw.unit.empty() || (!options.unit.empty() && !is_acceleration_unit(raw.unit)))
+    return acceleration_unit_mps2(options.unit);
   const double stated = stated_unit(text, raw.unit);
   if (!options.unit.empty() && acceleration_unit_mps2(options.unit) != stated)
     throw Error(fmt::format("{}: unit {} contradicts the file (it says {}): leave unit out", text.path().string(),
@@ -274,14 +276,20 @@ std::string why_no_record(const std::filesystem::path& path) {
   }
 }
 
+bool is_acceleration_unit(const std::string& unit) {
+  try {
+    return acceleration_unit_mps2(unit) > 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 double acceleration_unit_mps2(const std::string& unit) {
   std::string name;
   for (const char c : lower_case(unit))
     if (c != '^' && c != '*' && c != ' ') name += c;
-  if (const std::size_t square = name.find("\u00b2"); square != std::string::npos) name.replace(square, 2, "2");
-  if (name.ends_with("/sec/sec")) name.replace(name.size() - 8, 8, "/s2");
-  if (name.ends_with("/s/s")) name.replace(name.size() - 4, 4, "/s2");
-  if (name.ends_with("/sec2")) name.replace(name.size() - 5, 5, "/s2");
+  for (const char* square : {"/sec/sec", "/s/s", "/sec2", "/s\u00b2", "/sec\u00b2"})
+    if (name.ends_with(square)) name = name.substr(0, name.find('/')) + "/s2";
   if (name == "g") return standard_gravity_mps2;
   if (name == "m/s2" || name == "mps2") return 1;
   if (name == "cm/s2" || name == "gal" || name == "gals") return 0.01;

@@ -60,7 +60,8 @@ struct FormatInfo {
 };
 std::vector<FormatInfo> record_formats();
 
-// m/s2 in one of the units above. Throws Error that lists them.
+// m/s2 in one of the units above, however it is written: cm/s2, cm/s/s, cm/sec**2, gals. Throws Error that lists them.
 double acceleration_unit_mps2(const std::string& unit);
+bool is_acceleration_unit(const std::string& unit);
 
 }  // namespace freestand::motion

@@ -38,15 +38,16 @@ struct Amplitudes {
 const Amplitudes amplitudes[] = {
     {-2, {"g", "gal", "m/s2", "cm/s2"}}, {-1, {"m/s", "cm/s", "in/s"}}, {0, {"m", "cm", "mm", "in"}}};
 
-// A spectral ordinate: sa_0.5s_g, psa_1s_g.
-bool is_of_a_period(const std::string& column) {
-  const std::string first = lower_case(column.substr(0, column.find('_')));
-  return first == "sa" || first == "psa" || first == "sv" || first == "psv" || first == "sd";
-}
-
 template <class Words>
 bool holds(const Words& words, std::string_view word) {
   return std::find(std::begin(words), std::end(words), word) != std::end(words);
+}
+
+// A spectral ordinate: sa_0.5s_g, Sa(1s)_g, rotd50_1s_g.
+bool is_of_a_period(const std::string& column) {
+  const std::string name = lower_case(column);
+  constexpr std::string_view ordinates[] = {"sa", "psa", "sv", "psv", "sd", "rotd"};
+  return holds(ordinates, std::string_view(name).substr(0, name.find_first_not_of("abcdefghijklmnopqrstuvwxyz")));
 }
 
 class Reader {

@@ -152,10 +152,11 @@ class Importer {
     return longest;
   }
 
+  static bool is_whole(double ratio) { return std::abs(ratio - std::round(ratio)) < 1e-3 * ratio; }
   // That of a reading of the response, where these stand on the grid; else as early as both run.
   static double first_instant(const File& floor, const Series& times, double steps_a_reading) {
     const double both = std::max(floor.time.front(), times.front());
-    if (std::abs(steps_a_reading - std::round(steps_a_reading)) > 1e-3 * steps_a_reading) return both;
+    if (!is_whole(steps_a_reading)) return both;
     const auto first = std::ranges::find_if(times, [&](double time) { return time >= both; });
     return first == times.end() ? both : *first;
   }
@@ -190,7 +191,9 @@ class Importer {
     t.test.id = lab.id;
     t.test.role = lab.role;
     t.test.dt_s = step_s;
-    t.test.steps_a_reading = std::max(1, static_cast<int>(std::lround(response.step_s / step_s)));
+    const double steps_a_reading = std::round(response.step_s / step_s);
+    if (is_whole(response.step_s / step_s) && steps_a_reading <= measurement::most_steps_a_reading)
+      t.test.steps_a_reading = std::max(1, static_cast<int>(steps_a_reading));
     t.test.slip_m = of(response, times, lab.slip);
     t.test.rotation_rad = of(response, times, lab.rotation);
     t.test.block_acceleration_mps2 = of(response, times, lab.block_acceleration);
@@ -235,12 +238,14 @@ class Importer {
     if (std::abs(t.start_s) > 0.5 * step_s)
       say(fmt::format("{}: time 0 is now what was {:.6g} s in {}", lab.id, t.start_s,
                       lab.floor.path.filename().string()));
-    // At a share s between two samples white noise keeps (s^2 + (1 - s)^2)^(1/2), in the mean of its square 2/3.
+    // At a share s between two samples white noise keeps (s^2 + (1 - s)^2)^(1/2): in the mean of its square 2/3, and where each n-th one is a
+    // sample 1/(3 n^2) more.
     if (std::abs(response.step_s / step_s - 1) > 1e-3)
-      say(
-          fmt::format("{}: {} is read between its samples, on straight lines: white noise keeps some 0.82 of its size "
-                      "there, and is alike from step to step; compare will say so",
-                      lab.id, response.table.file.filename().string()));
+      say(fmt::format(
+          "{}: {} is read between its samples, on straight lines: white noise keeps some {:.2g} of its size, and "
+          "is alike from step to step; compare will say so",
+          lab.id, response.table.file.filename().string(),
+          std::sqrt(2.0 / 3 + (t.test.steps_a_reading > 1 ? std::pow(t.test.steps_a_reading, -2) / 3 : 0))));
     for (const File* file : {&floor, &response})
       if (step_s > 1.5 * file->step_s)
         say(fmt::format(
@@ -332,15 +337,14 @@ class Importer {
   void see_floor_noise(const LabTest& lab, const File& floor, double step_s) {
     const double own_s = floor.step_s;
     if (own_s < 1.01 * step_s) return;  // a clock's rounding, and half a percent of noise
-    slow_floor_s_ = own_s;
-    slow_floor_step_s_ = step_s;
     const double given = lab_.noise.floor_acceleration_mps2;
     const bool heard = given <= 0 && measurement::is_smooth(floor.step_s);
     const double own = heard ? measurement::slow_noise(channel(floor.table, lab.acceleration), floor.step_s)
                              : noise_of(floor, lab.acceleration, given);
-    const double noise = std::sqrt(own_s / step_s) * own;
-    // The least of the tests, as one sensor reads them.
-    slow_floor_noise_ = slow_floor_noise_ > 0 ? std::min(slow_floor_noise_, noise) : noise;
+    // The least of the tests, as one sensor reads them, at the finest of their steps.
+    slow_floor_step_s_ = slow_floor_step_s_ > 0 ? std::min(slow_floor_step_s_, step_s) : step_s;
+    if (const double spectrum = own * own * own_s; slow_floor_s_ == 0 || spectrum < slow_floor_spectrum_)
+      slow_floor_s_ = own_s, slow_floor_spectrum_ = spectrum;
   }
 
   void tell_noise() {
@@ -353,19 +357,18 @@ class Importer {
     tell_one(noise_.rotation_rad, lab_.noise.rotation_rad, "rotation_rad");
     tell_one(noise_.block_acceleration_mps2, lab_.noise.block_acceleration_mps2, "block_acceleration_mps2");
     noise_.floor_acceleration_mps2 = lab_.noise.floor_acceleration_mps2;
-    if (slow_floor_noise_ > 0) {
-      noise_.floor_acceleration_mps2 = slow_floor_noise_;
+    if (slow_floor_spectrum_ > 0) {
+      noise_.floor_acceleration_mps2 = std::sqrt(slow_floor_spectrum_ / slow_floor_step_s_);
       say(
           fmt::format("the floor is sampled every {:.4g} s, and read between its samples every {:.4g} s: its noise is "
                       "told as {:.3g} m/s2, white noise "
                       "at that step that moves a block as far",
-                      slow_floor_s_, slow_floor_step_s_, slow_floor_noise_));
+                      slow_floor_s_, slow_floor_step_s_, noise_.floor_acceleration_mps2));
     }
   }
 
   const Laboratory& lab_;
-  double slow_floor_s_ = 0, slow_floor_step_s_ = 0,
-         slow_floor_noise_ = 0;  // where it is sampled more slowly than the response
+  double slow_floor_s_ = 0, slow_floor_step_s_ = 0, slow_floor_spectrum_ = 0;  // sampled more slowly than the response
   measurement::Noise noise_;
   std::vector<TestOfLab> tests_;
   Imported out_;

@@ -14,7 +14,7 @@ namespace {
 
 // Of a step: clocks are read to some microseconds.
 constexpr double same_instant = 1e-3;
-// Times the usual step. A missing row makes it two; a clock of whole milliseconds, of steps of one and a half, makes two of one and a half.
+// Times the usual step; a missing row makes it two.
 constexpr double longest_step = 1.6;
 
 Series curve_at(const File& file, Series places, const LabColumn& column, bool smooth, double start, double step_s,
@@ -32,25 +32,38 @@ Series curve_at(const File& file, Series places, const LabColumn& column, bool s
   return curve;
 }
 
-// The usual step, of a clock that is read to some digits or jitters: the mean one, missing rows left out, in as few digits as that is known to.
-double usual_step(const Series& time) {
-  Series steps;
-  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
-  Series sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<long>(sorted.size() / 2), sorted.end());
-  const double middle = sorted[sorted.size() / 2];
-  double sum = 0, count = 0;
-  for (const double step : steps)
-    if (step <= longest_step * middle) sum += step, ++count;
-  const double mean = sum / count;
-  double off = 0, place = 0;  // the clock against that step
-  for (const double step : steps) {
-    if (step > longest_step * middle) continue;
-    place += step - mean;
-    off = std::max(off, std::abs(place));
+// The last digit of the clock that is not always 0: 0.001 where it is read to milliseconds.
+double digit_of(const Series& time) {
+  for (int digits = 0; digits < 9; ++digits) {
+    const double scale = std::pow(10, digits);
+    if (std::ranges::all_of(time, [&](double t) { return std::abs(t * scale - std::round(t * scale)) < 1e-4; }))
+      return 1 / scale;
   }
-  for (const double digit : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
-    const double rounded = std::round(mean / digit) * digit;
+  return 0;
+}
+
+// Longer than the usual step, by more than the clock's last digit makes it: rows are missing.
+bool lacks_rows(double step, double usual, double digit) {
+  return step > longest_step * usual && step > usual + 0.999 * digit;
+}
+
+// The usual step, of a clock that is read to some digits or jitters: the mean one, missing rows left out, in as few digits as that is known to.
+double usual_step(const Series& time, double digit) {
+  double mean = (time.back() - time.front()) / static_cast<double>(time.size() - 1), off = 0, count = 0;
+  for (double before = 0; mean != before;) {
+    before = mean;
+    double sum = 0, place = 0;  // place: the clock against that step
+    off = count = 0;
+    for (std::size_t i = 1; i < time.size(); ++i) {
+      const double step = time[i] - time[i - 1];
+      if (lacks_rows(step, before, digit)) continue;
+      sum += step, ++count;
+      off = std::max(off, std::abs(place += step - before));
+    }
+    mean = sum / count;
+  }
+  for (const double a_second : {1e2, 1e3, 1e4, 1e5, 1e6}) {
+    const double rounded = std::round(mean * a_second) / a_second;
     if (rounded > 0 && std::abs(rounded - mean) <= 2 * off / count + 1e-9 * mean) return rounded;
   }
   return mean;
@@ -78,7 +91,7 @@ Series channel(const LabTable& table, const LabColumn& column) {
 }
 
 File read_file(const LabFile& lab) {
-  File file{read_lab_table(lab.path), {}, 0};
+  File file{read_lab_table(lab.path, lab.time.name), {}};
   file.time = channel(file.table, lab.time);
   Series steps;
   for (std::size_t i = 1; i < file.time.size(); ++i) {
@@ -92,20 +105,20 @@ File read_file(const LabFile& lab) {
     throw Error(fmt::format("{} holds {} rows (a history needs ten and more): give the whole of it", lab.path.string(),
                             file.time.size()),
                 Exit::data);
-  file.step_s = usual_step(file.time);
+  file.digit_s = digit_of(file.time);
+  file.step_s = usual_step(file.time, file.digit_s);
   for (std::size_t row = 1; row < file.time.size(); ++row)
-    if (const double step = file.time[row] - file.time[row - 1]; step > (1 + longest_step) * file.step_s)
-      throw Error(
-          fmt::format(
-              "{}:{}: {:.4g} s are missing before this line (the usual step is {:.4g} s; what happened then is not "
-              "known): cut the file there, or complete it",
-              lab.path.string(), file.table.lines[row], step - file.step_s, file.step_s),
-          Exit::data);
+    if (const double step = file.time[row] - file.time[row - 1];
+        lacks_rows(step - file.step_s, file.step_s, file.digit_s))
+      throw Error(fmt::format("{}:{}: {:.4g} s are missing before this line (the usual step is {:.4g} s; what happened "
+                              "then is not known): cut the file there, or complete it",
+                              lab.path.string(), file.table.lines[row], step - file.step_s, file.step_s),
+                  Exit::data);
   return file;
 }
 
 bool is_behind_gap(const File& file, std::size_t row) {
-  return row > 0 && file.time[row] - file.time[row - 1] > longest_step * file.step_s;
+  return row > 0 && lacks_rows(file.time[row] - file.time[row - 1], file.step_s, file.digit_s);
 }
 
 Series at_times(const File& file, const Series& time, const LabColumn& column, double start, double step_s,

@@ -13,7 +13,8 @@ using Series = std::vector<double>;
 struct File {
   LabTable table;
   Series time;
-  double step_s = 0;  // the usual one
+  double step_s = 0;   // the usual one
+  double digit_s = 0;  // the clock's last
 };
 
 // Throws Error (Exit::data): too few rows, times that do not rise, or two rows and more that are missing in a row.

@@ -70,10 +70,8 @@ class Reader {
     check_common();
     problems_.throw_if_any();
     if (const YAML::Node* entries = file.find("entries")) {
-      if (!entries->IsSequence())
-        file.problem("entries", "entries is no list (each entry is an item): write - {id: ...}");
-      else if (entries->size() == 0 && !file.has("table"))
-        file.problem("entries", "entries is empty (a catalogue has one at least): write - {id: ...}");
+      if (!entries->IsSequence() || (entries->size() == 0 && !file.has("table")))
+        file.problem("entries", "entries is no list, or has nothing in it (each entry is an item): write - {id: ...}");
       for (const YAML::Node& entry : *entries)
         if (entries->IsSequence()) read_entry(entry, line_of(entry), problems_, path_);
     }

@@ -190,7 +190,7 @@ Test read_test(const YAML::Node& node, std::size_t i, int line, const Dataset& s
   if (!section.has("role"))
     section.problem("role", fmt::format("{} is missing (which tests may a fit use?): add role: calibration, or holdout",
                                         section.name("role")));
-  test.steps_a_reading = static_cast<int>(section.integer("steps_a_reading", 1, 1, 1000));
+  test.steps_a_reading = static_cast<int>(section.integer("steps_a_reading", 1, 1, measurement::most_steps_a_reading));
   test.role = static_cast<measurement::Role>(section.choice("role", {"calibration", "holdout"}, 0));
   test.specimen = read_dimensions(section, set.specimen);
   test.start = read_start(section);

@@ -16,9 +16,9 @@ using testing::HasSubstr;
 class LabTables : public testing::Test {
  protected:
   ~LabTables() override { std::filesystem::remove(file_); }
-  LabTable read(const std::string& text) const {
+  LabTable read(const std::string& text, const std::string& column = "t") const {
     std::ofstream(file_, std::ios::binary) << text;
-    return read_lab_table(file_);
+    return read_lab_table(file_, column);
   }
   std::string problem(const std::string& text) const {
     try {
@@ -44,8 +44,19 @@ TEST_F(LabTables, NamesStandRightAboveTheNumbersOrAboveTheirUnits) {
     EXPECT_THAT(table.values, ElementsAre(ElementsAre(0, 1), ElementsAre(1, 2)));
   }
   EXPECT_THAT(read("t,lv\n[s],[mm]\n0,1\n1,2\n").units, ElementsAre("[s]", "[mm]"));
+  // Units in whatever words, a title as long as the table, numbers for names and in headers.
+  for (const char* text : {"t,lv\ns,\xC2\xB5m\n0,1\n1,2\n", "t,lv\nsec,Volts\n0,1\n1,2\n", "t,lv\n(s),1\n0,1\n1,2\n",
+                           "Range,10\nOffset,5\nt,lv\n0,1\n1,2\n", "Rate,200\nt,lv\n0,1\n1,2\n",
+                           "Channel 1 of 3\nChannel 2 of 3\nt,lv\n0,1\n1,2\n",
+                           "Samples\t1000\t1000\nt\tlv\n0\t1\n1\t2\n", "t,lv\n0,1,\n1,2\n"}) {
+    SCOPED_TRACE(text);
+    const LabTable table = read(text);
+    EXPECT_THAT(table.columns, ElementsAre("t", "lv"));
+    EXPECT_THAT(table.values, ElementsAre(ElementsAre(0, 1), ElementsAre(1, 2)));
+  }
+  EXPECT_THAT(read("Time;1;2\n0;1;2\n1;2;3\n", "1").columns, ElementsAre("Time", "1", "2"));
   EXPECT_THAT(read("0,1\n1,2\n").columns, ElementsAre("1", "2"));
-  EXPECT_THAT(read("\"t, s\",\"lv, mm\"\n0,1\n1,2\n").columns, ElementsAre("t, s", "lv, mm"));
+  EXPECT_THAT(read("\"t, s\",\"lv, mm\"\n0,1\n1,2\n", "t, s").columns, ElementsAre("t, s", "lv, mm"));
 }
 
 // Dates, words and cells that are empty are flaws of their own columns alone.
@@ -57,7 +68,7 @@ TEST_F(LabTables, ColumnsMayHoldWords) {
   EXPECT_THAT(table.flaws[1], HasSubstr(":2: 12:00:01 in column when is no finite number"));
   EXPECT_THAT(table.flaws[2], HasSubstr(":4: -- in column lv"));
   EXPECT_TRUE(std::isnan(table.values[2][2]));
-  // A first row that lacks some, and a last column without names' end.
+  // A first row that lacks some, and a last column that is empty throughout.
   EXPECT_THAT(read("t,lv\n0,--\n1,2\n2,3\n").values[0], ElementsAre(0, 1, 2));
   EXPECT_THAT(read("t,lv,note\n0,1,\n1,2,\n").columns, ElementsAre("t", "lv", "note"));
 }
@@ -71,6 +82,9 @@ TEST_F(LabTables, WhatIsNoTableIsRefused) {
   EXPECT_THAT(problem("t,lv\nnothing,here\n"), HasSubstr("holds no table of numbers"));
   EXPECT_THAT(problem(std::string("t,lv\n0,1\n\0,2\n", 12)), HasSubstr("is no text"));
   EXPECT_THAT(problem("t,lv\n0,1\n1,2,3\n"), HasSubstr(":3: 3 cells where the table has 2 columns"));
+  // Row by row: one that is broken at the beginning is not taken for a title.
+  EXPECT_THAT(problem("t,lv\n0,1\n1,2,3\n2,3\n3,4\n4,5\n"), HasSubstr(":3: 3 cells where the table has 2 columns"));
+  EXPECT_THAT(read("t,lv\n0,NaN\n1,2\n2,3\n").values[0], ElementsAre(0, 1, 2));
   EXPECT_THAT(problem("t,lv\n0,1\n1\n"), HasSubstr(":3: 1 cells where the table has 2 columns"));
 }
 

@@ -152,16 +152,63 @@ TEST(Interpolate, BetweenFrictionsACurveIsTheFormulasAndRises) {
   }
 }
 
-// One that was swept to where a half of it exceeds tells nothing of how the rest comes.
-TEST(Interpolate, AboveWhatAllReachTheBandIsOpen) {
-  const Curve whole = leap(0.2);
-  Curve half = leap(0.8);
-  half.points = {{0.4, 0, 0, 0.01, 100}, {0.8, 0.5, 0.4, 0.6, 100}};
-  const Probability inside = between(std::array<const Curve*, 2>{&whole, &half}, std::array{0.5, 0.5}, 0.8);
-  EXPECT_NEAR(inside.value, 0.75, 1e-9);
-  EXPECT_EQ(inside.upper, 1);
-  EXPECT_LE(inside.lower, 0.4);
-  EXPECT_EQ(between(std::array<const Curve*, 2>{&whole, &half}, std::array{-0.3, 1.3}, 3.0).upper, 1);
+// One that was swept to where a half of it exceeds tells nothing of how the rest comes: the other one does, and outside of both nothing.
+TEST(Interpolate, AboveWhatAllReachItGoesOnRising) {
+  const Curve whole = test::curve(0, 0.05, 0.3, 0.3);
+  Curve cut = test::curve(1, 0.05, 0.9, 0.5);
+  cut.family = points_family;
+  cut.points.clear();
+  for (double im = 0.1; im < 0.95; im += 0.1) {
+    const double p = test::lognormal(im, 0.9, 0.5);
+    cut.points.push_back({im, p, p - 0.5 * p * (1 - p), p + 0.5 * p * (1 - p), 1000});
+  }
+  const std::array<const Curve*, 2> both{&whole, &cut};
+  double before = 0;
+  for (double im = 0.3; im < 1.2; im += 0.02) {
+    const Probability p = between(both, std::array{0.5, 0.5}, im);
+    const double whole_of_both = test::lognormal(im, std::sqrt(0.27), 0.4);
+    EXPECT_GE(p.value, before - 1e-12) << im;
+    EXPECT_NEAR(p.value, whole_of_both, im < 0.5 ? 0.03 : 0.15) << im;
+    before = p.value;
+  }
+  EXPECT_EQ(between(both, std::array{-0.3, 1.3}, 3.0).upper, 1);
+}
+
+// Outside of the entries whatever is taken off: a share between 0 and 1 in its band, and no less at a larger intensity, unless the curve that is
+// taken off is so flat that the answer would fall: of lognormals that is known.
+TEST(Interpolate, ExtrapolatedCurvesRiseAndLieInTheirBands) {
+  std::mt19937 draw(2);
+  std::uniform_real_distribution<double> uniform;
+  for (int repeat = 0; repeat < 30; ++repeat) {
+    std::array<Curve, 2> made;
+    for (Curve& curve : made) {
+      curve = test::curve(0, 0.05, 0.2 + uniform(draw), 0.2 + 0.5 * uniform(draw));
+      if (repeat % 3 == 0) continue;
+      curve.family = points_family;
+      for (Point& point : curve.points) {
+        point.probability = std::round(point.probability * 50 + uniform(draw) - 0.5) / 50;
+        point.lower = std::max(0.0, point.probability - 0.1);
+        point.upper = std::min(1.0, point.probability + 0.1);
+      }
+    }
+    const std::array<const Curve*, 2> curves{&made[0], &made[1]};
+    for (const double t : {-0.5, 0.3, 1.5}) {
+      double before = 0;
+      for (double im = 0.05; im < 3; im *= 1.1) {
+        const Probability p = between(curves, std::array{1 - t, t}, im);
+        EXPECT_LE(p.lower, p.value);
+        EXPECT_LE(p.value, p.upper);
+        if (p.lower == 0 && p.upper == 1) continue;  // it would fall
+        EXPECT_GE(p.value, before - 1e-9) << repeat << " " << t << " " << im;
+        before = p.value;
+      }
+    }
+  }
+  // The flat one of two is taken off.
+  const Curve steep = test::curve(0, 0.05, 0.3, 0.1), flat = test::curve(1, 0.05, 0.6, 0.5);
+  const std::array<const Curve*, 2> both{&steep, &flat};
+  EXPECT_LT(between(both, std::array{1.5, -0.5}, 0.101).value, 1e-6);
+  EXPECT_EQ(between(both, std::array{1.5, -0.5}, 0.101).upper, 1);
 }
 
 TEST(Interpolate, ALognormalGoesOnBeyondThePointsAndTakesItsBandAlong) {

@@ -118,9 +118,9 @@ TEST(Quality, UnitsAndDeadChannels) {
     index_runs(motion);
   };
   EXPECT_THAT(said([&](Dataset& d) { scaled(d.tests[2].motion, 0); }),
-              Contains(HasSubstr("t3 move more than a floor that reaches 0 g can make them")));
+              Contains(HasSubstr("t3 moves more than a floor that reaches 0 g can make them")));
   EXPECT_THAT(said([&](Dataset& d) { scaled(d.tests[2].motion, 1 / 9.80665); }),
-              Contains(HasSubstr("t3 move more than a floor")));
+              Contains(HasSubstr("t3 moves more than a floor")));
   EXPECT_THAT(said([&](Dataset& d) { scaled(d.tests[2].motion, 100); }),
               Contains(HasSubstr("is floor_acceleration_mps2 in m/s2?")));
   EXPECT_THAT(said([&](Dataset& d) {
@@ -160,8 +160,8 @@ TEST(Quality, OffsetsOfSensors) {
   shifted(data.tests[1].slip_m, 2 * test::slip_noise_m);
   shifted(data.tests[2].rotation_rad, -0.05);
   Quality q = examined(data);
-  EXPECT_THAT(q.findings, Contains(HasSubstr("the slip of t2 does not start at zero (0.00055 m): subtract")));
-  EXPECT_THAT(q.findings, Contains(HasSubstr("the rotation of t3 does not start at zero (0.05 rad)")));
+  EXPECT_THAT(q.findings, Contains(HasSubstr("the slip of t2 does not start at zero (up to 0.00055 m): subtract")));
+  EXPECT_THAT(q.findings, Contains(HasSubstr("the rotation of t3 does not start at zero (up to 0.05 rad)")));
   EXPECT_EQ(q.wrong_numbers, 1);  // an offset of twice the noise does little harm
   data = good;
   shifted(data.tests[1].slip_m, 0.3 * test::slip_noise_m);
@@ -250,7 +250,7 @@ TEST(Quality, AResponseThatBeginsBeforeItsFloor) {
       for (std::size_t i = 0; i + 60 < samples->size(); ++i) (*samples)[i] = (*samples)[i + 60];
     const Doubts found = doubts(Bench(data, 0));
     EXPECT_THAT(found.sentences,
-                Contains("t2 moves before its floor does, or farther: check the clocks of the channels"));
+                Contains("the block of t2 moves before its floor does, or farther: check the clocks of the channels"));
     EXPECT_GT(found.spoilt_tests, 0U);
   }
 }

@@ -19,6 +19,7 @@ TEST_F(Record, At2ReadsEveryVariantOfItsHeader) {
                            "NPTS=   7, DT=   .0050 SEC,   0 POLE @    30.00000 HZ,  -5 POLE @      .05000\n",
                            "NPTS=  7, DT= .00500 SEC\n",
                            "NPTS=  7, DT= 5.0 MSEC\n",
+                           "NPTS=  7, DT= 5.0 (MILLISECONDS)\n",
                            "NPTS=7,DT=5.0E-03\n",
                            "npts =     7 , dt =   0.005 sec\n",
                            "    7    0.0050    NPTS, DT\n"};
@@ -113,22 +114,29 @@ TEST_F(Record, At2IsInTheUnitOfItsHeader) {
   for (const char* line :
        {"ACCELERATION TIME SERIES IN CM/SEC**2", "ACCELERATION, UNITS: CM/S**2", "Acceleration (cm/sec**2)",
         "ACCELERATION IN GALS", "UNITS: GALS", "ACCELERATION (cm/s\u00b2)", "UNITS CM/S\u00b2", "ACCELERATION cm/s2",
-        "CORRECTED ACCELERATION (CM/SEC/SEC)"}) {
+        "CORRECTED ACCELERATION (CM/SEC/SEC)", "ACCELERATION IN CM /S2",
+        "ACCELERATION IN CM/S2\nPEAK ACCELERATION IN G: 0.35", "STATION IN M DISTRICT, ACCELERATION IN CM/S2"}) {
     SCOPED_TRACE(line);
     expect_samples(read_record(at2(line)), 0.005, seven, 0.01);
   }
-  // Units of something, which are not known: never taken for g.
-  for (const char* line :
-       {"ACCELERATION IN CM / S2", "ACC (CM/S-2) OF ACCELERATION", "ACCELERATION IN MILLI-G", "ACCELERATION (MG)",
-        "ACCELERATION (%G)", "UNITS: COUNTS", "VELOCITY IN CM/S OF ACCELERATION"}) {
+  // Units of something, which are not known, are never taken for g; the user may name what they are.
+  for (const char* line : {"ACC (CM/S-2) OF ACCELERATION", "ACCELERATION IN MILLI-G", "ACCELERATION (MG)",
+                           "ACCELERATION (%G)", "ACCELERATION IN CM/S"}) {
     SCOPED_TRACE(line);
     expect_data_error(at2(line), 0, "no unit of acceleration");
+    expect_samples(read_record(at2(line), {.unit = "cm/s2"}), 0.005, seven, 0.01);
   }
-  expect_samples(read_record(write("x.AT2",
-                                   "a\nLOMA PRIETA, Galway (GAL), 090\nACCELERATION IN UNITS OF G\nNPTS= 7, DT= .0050 "
-                                   "SEC\n" +
-                                       seven_text)),
-                 0.005, seven, g);
+  // Words that are no units.
+  for (const char* line :
+       {"ACCELERATION TIME HISTORY OF M 6.9 LOMA PRIETA", "ACCELERATION (E/W)", "ACCELERATION OF N/S COMPONENT",
+        "ACCELERATION OF 10/18/89", "CORRECTED ACCELEROGRAM (10/18/89)", "SCALED TO (50%)", "ACCELEROGRAPH UNIT: SMA-1",
+        "ACCELERATION TIME HISTORY\nPGA = 469.9 CM/S2", "ACCELERATION IN G\nPEAK = 469.9 CM/S2",
+        "Galway (GAL), 090\nACCELERATION IN UNITS OF G",
+        "PEER STRONG MOTION DATABASE RECORD. PROCESSING BY PACIFIC ENGINEERING.",
+        "ACCELERATION TIME HISTORY IN UNITS OF G. FILTER POINTS: HP=0.2 Hz LP=40.0 Hz"}) {
+    SCOPED_TRACE(line);
+    expect_samples(read_record(at2(line)), 0.005, seven, g);
+  }
   expect_samples(read_record(at2("ACCELERATION TIME HISTORY")), 0.005, seven, g);
   expect_samples(read_record(at2("ACCELERATION TIME HISTORY"), {.unit = "m/s2"}), 0.005, seven, 1);
   expect_samples(read_record(at2("ACCELERATION OF STATION G IN THE WEST (G)")), 0.005, seven, g);

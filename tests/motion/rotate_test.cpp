@@ -124,7 +124,7 @@ TEST_F(Rotation, VerticalRecordsBeginWithTheirHorizontalOnes) {
 TEST_F(Rotation, GoesByTheClocksOfTables) {
   const auto table = [&](const std::string& name, const std::string& times) {
     std::string text = "time_s,floor_acceleration_mps2\n";
-    for (const char* value : {"1", "2", "3"}) text += times + value + "," + value + "\n";
+    for (const char* value : {"1", "2", "3"}) text += times + value + "," + value + (name == "late.csv" ? ".5\n" : "\n");
     return write(name, text);
   };
   const auto zero = table("zero.csv", "0.0"), late = table("late.csv", "35.0"), too = table("too.csv", "35.0");

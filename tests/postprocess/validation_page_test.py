@@ -73,7 +73,7 @@ class ThePage(Temporary):
 
     def test_why_a_verdict_is_unknown(self):
         for reason, title, finding in (
-                ("data", "bench: no verdict, since the measurements look wrong in a sign, a clock, a unit or a dimension", "were the measurements right: none is named"),
+                ("data", "bench: no verdict, since the measurements look wrong in a sign, a clock, a unit, an offset or a dimension", "were the measurements right: none is named"),
                 ("none_helps", "bench: the model misses more than noise explains, and no effect", "the best, rate weakening, 6.00"),
                 ("none_suffices", "bench: no effect of the catalogue explains all", "The best candidate, rate weakening, still misses")):
             with self.subTest(reason):

@@ -148,7 +148,7 @@ TEST_F(CatalogueTest, ACommonBlockIsWhatEachEntryDoesNotSay) {
   EXPECT_EQ(slender.entries.at(0).words.mass_kg, 120);
   EXPECT_THAT(numbers(slender.entries.at(1).words), ElementsAre(0.6, 2, 120));
   // Mistakes: of the common block once, of what it makes together with a row at the row.
-  EXPECT_THAT(refusal(common + "entries: []\n"), HasSubstr("entries is empty"));
+  EXPECT_THAT(refusal(common + "entries: []\n"), HasSubstr("has nothing in it"));
   EXPECT_THAT(refusal(common + "block: {mas_kg: 120}\ntable: t.csv\n"),
               AllOf(HasSubstr("some.yaml:5: unknown key mas_kg"), Not(HasSubstr("t.csv"))));
   EXPECT_THAT(refusal(common + "block: {centre_height_m: 1.7, height_m: 2}\ntable: t.csv\n"),

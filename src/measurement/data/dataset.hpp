@@ -42,6 +42,8 @@ struct Peaks {
   bool operator==(const Peaks&) const = default;
 };
 
+inline constexpr int most_steps_a_reading = 1000;
+
 struct Test {
   std::string id;
   Role role = Role::calibration;

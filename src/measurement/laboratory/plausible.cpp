@@ -165,13 +165,13 @@ class Doubter {
     about(slips_, "the slip of {} reaches {:.3g} m", ": is slip_m in metres?");
     about(rotations_, "the rotation of {} reaches {:.3g} rad", ": is rotation_rad in radians?");
     about(strong_, "the floor of {} reaches {:.3g} g", ": is floor_acceleration_mps2 in m/s2?");
-    about(weak_, "{} move more than a floor that reaches {:.2g} g can make them",
+    about(weak_, "the block of {} moves more than a floor that reaches {:.2g} g can make them",
           ": is floor_acceleration_mps2 in m/s2, and its sensor alive?");
-    about(early_, "{} moves before its floor does, or farther", ": check the clocks of the channels");
+    about(early_, "the block of {} moves before its floor does, or farther", ": check the clocks of the channels");
     constexpr const char* subtract =
         ": subtract its mean before the shaking, or begin the record before the block moves";
-    about(late_slips_, "the slip of {} does not start at zero ({:.2g} m)", subtract, false);
-    about(late_rotations_, "the rotation of {} does not start at zero ({:.2g} rad)", subtract, false);
+    about(late_slips_, "the slip of {} does not start at zero (up to {:.2g} m)", subtract, false);
+    about(late_rotations_, "the rotation of {} does not start at zero (up to {:.2g} rad)", subtract, false);
     about(floors_, "the floor of {} is off zero before and after the shaking ({:.2g} m/s2)",
           ": subtract that from floor_acceleration_mps2, unless the floor is tilted", false);
     for (int c = 0; c < channel_count; ++c) {
@@ -224,7 +224,7 @@ class Doubter {
     const double stated = bench_.noise(channel);
     std::vector<double> scatters;
     for (const std::size_t i : tests_of(bench_.data(), Role::calibration))
-      if (const double s = sensor_noise(history(bench_.test(i), channel)); s > 0) scatters.push_back(s);
+      if (const double s = sensor_noise(readings(bench_.test(i), channel)); s > 0) scatters.push_back(s);
     if (stated <= 0 || scatters.empty()) return;
     const auto middle = scatters.begin() + static_cast<long>(scatters.size() / 2);
     std::nth_element(scatters.begin(), middle, scatters.end());
