@@ -180,7 +180,8 @@ TEST_F(CrossRecords, PairsThatDoNotBeginTogetherAreRefused) {
          << start
          << "\nSampling Freq(Hz) 100Hz\nDuration Time(s)  0.08\nDir.              N-S\nScale Factor      "
             "3920(gal)/6182761\nMax. Acc. (gal)   1.0\nLast Correction   2003/05/26 18:24:15\nMemo.\n"
-            "     1000    -1000     2000    -2000     3000    -3000     1000    -1000\n";
+            "     1000    -1000     2000    -2000     3000    -3000     1000    "
+         << (name.ends_with("EW") ? "-2000\n" : "-1000\n");
   };
   knet("along/k.NS", "2003/05/26 18:24:15");
   const std::string motion = "{records: along/k.NS, cross_records: across/k.EW}";
