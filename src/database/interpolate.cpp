@@ -108,6 +108,10 @@ class Reading {
     if (!lognormal_) return {from, to};
     return {std::min(from, std::log(median_) - far * dispersion_), std::max(to, std::log(median_) + far * dispersion_)};
   }
+  // The same of its points.
+  std::pair<double, double> ends() const {
+    return {std::log(nodes_[lognormal_ ? 0 : 1].im), std::log(nodes_.back().im)};
+  }
 
  private:
   bool lognormal_, falls_ = false;
@@ -118,8 +122,10 @@ class Reading {
 // A curve that rises, or an end of its band, read the other way round.
 class Reached {
  public:
-  Reached(const Reading& curve, double Probability::*member) : curve_(curve.rising()), member_(member) {
-    std::tie(from_, to_) = curve_.reach();
+  // is_taken_off: with a negative weight. Beyond the points its band is level for want of knowledge, which is no reason to take more off.
+  Reached(const Reading& curve, double Probability::*member, bool is_taken_off)
+      : curve_(curve.rising()), member_(member) {
+    std::tie(from_, to_) = is_taken_off && member != &Probability::value ? curve_.ends() : curve_.reach();
   }
   double most() const { return p_at(to_); }
   // ln of the intensity from which on it is p at least: so far down as it looks where it always is.
@@ -153,7 +159,7 @@ class AtEqualProbability {
       : upper_(member == &Probability::upper) {
     for (std::size_t i = 0; i < curves.size(); ++i) {
       if (weights[i] == 0) continue;
-      reached_.emplace_back(curves[i], weights[i] < 0 ? opposite : member);
+      reached_.emplace_back(curves[i], weights[i] < 0 ? opposite : member, weights[i] < 0);
       weights_.push_back(weights[i]);
       most_ = std::min(most_, reached_.back().most());
     }

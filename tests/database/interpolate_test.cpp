@@ -204,6 +204,14 @@ TEST(Interpolate, ExtrapolatedCurvesRiseAndLieInTheirBands) {
       }
     }
   }
+  // Of two that rise alike the band is as wide as theirs, and no wider than twice that.
+  const Curve low = test::curve(0, 0.05, 0.3, 0.4), high = test::curve(1, 0.05, 0.6, 0.4);
+  const std::array<const Curve*, 2> alike{&low, &high};
+  for (double im = 0.5; im < 1.5; im *= 1.1) {
+    const Probability p = between(alike, std::array{-0.3, 1.3}, im), own = at(high, im / std::pow(2, 0.3));
+    EXPECT_GT(p.lower, own.value - 2.5 * (own.value - own.lower)) << im;
+    EXPECT_LT(p.upper, own.value + 2.5 * (own.upper - own.value)) << im;
+  }
   // The flat one of two is taken off.
   const Curve steep = test::curve(0, 0.05, 0.3, 0.1), flat = test::curve(1, 0.05, 0.6, 0.5);
   const std::array<const Curve*, 2> both{&steep, &flat};

@@ -29,9 +29,8 @@ void withdraw(Diagnosis& d) {
   d.best.reset();
   for (Candidate& c : d.candidates) c.rival = false;
   d.sentences = {
-      "the measurements look wrong in a sign, a clock, a unit, an offset or a dimension (see the findings): no effect can be "
-      "named before "
-      "that is settled"};
+      "the measurements look wrong in a sign, a clock, a unit, an offset or a dimension (see the findings): no effect "
+      "can be named before that is settled"};
 }
 
 class Diagnoser : PairSearch {
