@@ -22,7 +22,7 @@ std::string without_blanks(const std::string& text) {
   return first == std::string::npos ? "" : text.substr(first, last - first + 1);
 }
 
-// Blanks: runs of them count as one. What stands in quotes is one cell. A separator at the end of a line makes none.
+// Blanks: runs of them count as one. What stands in quotes is one cell. Behind a separator at the end stands an empty one.
 Cells cells_of(const std::string& line, char separator) {
   Cells cells;
   std::string cell;
@@ -42,7 +42,6 @@ Cells cells_of(const std::string& line, char separator) {
       cell += c;
   }
   end_cell();
-  if (cells.size() > 1 && cells.back().empty()) cells.pop_back();
   return cells;
 }
 
@@ -89,17 +88,11 @@ std::vector<Line> lines_of(const std::filesystem::path& file) {
   return lines;
 }
 
-struct Beginning {
-  std::size_t line;  // the first of the numbers
-  Way way;
-  std::size_t count;  // cells of a line
-};
-
-// Of this line and those behind it, as far as they are looked at: do at least half have as many cells as it, and which of its cells are numbers
-// in at least half?
+// Of this line and those behind it, as far as they are looked at.
 struct Usual {
-  bool as_many = false;
-  std::vector<bool> numbers;
+  bool as_many = false;       // at least half have as many cells as it, but for an empty one at the end
+  bool none_behind = false;   // the last cell of all that have as many is empty
+  std::vector<bool> numbers;  // which of its cells are numbers in at least half
 
   Usual(const std::vector<Line>& lines, std::size_t from, const Way& way) {
     constexpr std::size_t looked_at = 12;
@@ -110,30 +103,55 @@ struct Usual {
     const auto in_half = [&](const auto& is) {
       return 2 * static_cast<std::size_t>(std::ranges::count_if(all, is)) >= all.size();
     };
-    as_many = in_half([&](const Cells& cells) { return cells.size() == count; });
+    as_many = in_half([&](const Cells& cells) {
+      return cells.size() == count || (cells.size() == count + 1 && cells.back().empty()) ||
+             (cells.size() + 1 == count && all.front().back().empty());
+    });
+    none_behind = std::ranges::all_of(all, [&](const Cells& c) { return c.size() != count || c.back().empty(); });
     for (std::size_t k = 0; k < count; ++k)
       numbers.push_back(
           in_half([&](const Cells& cells) { return k < cells.size() && number(cells[k], way.decimal_comma); }));
   }
 };
 
-// The first line that has numbers, or marks in their place, where most of the lines behind it have numbers, in two columns and more: names,
-// units and titles have words there.
+struct Beginning {
+  std::size_t line;  // the first of the numbers
+  Way way;
+  Usual usual;
+};
+
+// Does the line begin the table? Most of the lines behind it have numbers in two columns and more, and it has numbers, or marks in their place,
+// there. Names, units and titles have words; so may it, if two of its cells are such numbers and the line above, as long, has none.
+std::optional<Usual> begins(const std::vector<Line>& lines, std::size_t i, const Way& way) {
+  const Cells here = cells_of(lines[i].text, way.separator);
+  const auto is_number = [&](const std::string& cell) { return number(cell, way.decimal_comma).has_value(); };
+  if (here.size() < 2 || std::ranges::none_of(here, is_number)) return {};
+  Usual usual(lines, i, way);
+  if (!usual.as_many || std::ranges::count(usual.numbers, true) < 2) return {};
+  std::size_t found = 0, words = 0;
+  for (std::size_t k = 0; k < here.size(); ++k) {
+    if (!usual.numbers[k]) continue;
+    found += is_number(here[k]);
+    words += !is_number(here[k]) && !is_mark(here[k]);
+  }
+  if (words > 0) {
+    const Cells above = i > 0 ? cells_of(lines[i - 1].text, way.separator) : Cells{};
+    if (found < 2 || above.size() != here.size() || std::ranges::any_of(above, is_number)) return {};
+  }
+  return usual;
+}
+
+// A way that makes numbers or marks of all cells is preferred: "0,00 1,0" is no line of commas.
 std::optional<Beginning> beginning_of(const std::vector<Line>& lines) {
   for (std::size_t i = 0; i < lines.size(); ++i)
-    for (const Way& way : ways) {
-      const Cells here = cells_of(lines[i].text, way.separator);
-      if (here.size() < 2 || std::ranges::none_of(here, [&](const std::string& cell) {
-            return number(cell, way.decimal_comma).has_value();
-          }))
-        continue;
-      const Usual usual(lines, i, way);
-      if (!usual.as_many || std::ranges::count(usual.numbers, true) < 2) continue;
-      bool begins = true;
-      for (std::size_t k = 0; k < here.size(); ++k)
-        begins = begins && (!usual.numbers[k] || number(here[k], way.decimal_comma) || is_mark(here[k]));
-      if (begins) return Beginning{i, way, here.size()};
-    }
+    for (const bool all_of_it : {true, false})
+      for (const Way& way : ways) {
+        const Cells here = cells_of(lines[i].text, way.separator);
+        const bool whole = std::ranges::all_of(
+            here, [&](const std::string& cell) { return number(cell, way.decimal_comma) || is_mark(cell); });
+        if (all_of_it && !whole) continue;
+        if (auto usual = begins(lines, i, way)) return Beginning{i, way, *usual};
+      }
   return {};
 }
 
@@ -148,18 +166,25 @@ LabTable read_lab_table(const std::filesystem::path& file, const std::string& a_
   const std::optional<Beginning> begins = beginning_of(lines);
   if (!begins) throw Error(file.string() + " holds no table of numbers: export it as text with columns", Exit::data);
   const Way& way = begins->way;
-  const auto above = [&](std::size_t so_many) {
+  // A separator at the end of every line makes no column, unless one is named there.
+  std::size_t count = begins->usual.numbers.size();
+  const auto raw = [&](std::size_t so_many) {
     return so_many <= begins->line ? cells_of(lines[begins->line - so_many].text, way.separator) : Cells{};
+  };
+  const auto names_the_last = [&](const Cells& cells) { return cells.size() == count && !cells.back().empty(); };
+  if (begins->usual.none_behind && !names_the_last(raw(1)) && !names_the_last(raw(2))) --count;
+  const auto cells_in = [&](const std::string& text) {
+    Cells cells = cells_of(text, way.separator);
+    if (cells.size() == count + 1 && cells.back().empty()) cells.pop_back();
+    return cells;
+  };
+  const auto above = [&](std::size_t so_many) {
+    return so_many <= begins->line ? cells_in(lines[begins->line - so_many].text) : Cells{};
   };
   LabTable table;
   table.file = file;
   // The names stand right above, or with a line of units between; which of the two the column tells that is looked for.
   Cells names = above(1), units = above(2);
-  // Names of more columns than most rows fill: the last of them is empty there.
-  const std::size_t count = std::max(names.size(), units.size()) == begins->count + 1 &&
-                                    without_blanks(lines[begins->line].text).ends_with(way.separator)
-                                ? begins->count + 1
-                                : begins->count;
   const auto fits = [&](const Cells& cells) { return cells.size() == count; };
   const auto tells = [&](const Cells& cells) {
     return fits(cells) && std::ranges::find(cells, a_column) != cells.end();
@@ -177,9 +202,8 @@ LabTable read_lab_table(const std::filesystem::path& file, const std::string& a_
   table.values.resize(count);
   table.flaws.resize(count);
   for (std::size_t i = begins->line; i < lines.size(); ++i) {
-    Cells cells = cells_of(lines[i].text, way.separator);
+    const Cells cells = cells_in(lines[i].text);
     const std::string place = file.string() + ":" + std::to_string(lines[i].number) + ": ";
-    if (cells.size() + 1 == count && without_blanks(lines[i].text).ends_with(way.separator)) cells.emplace_back();
     if (cells.size() != count)
       throw Error(place + std::to_string(cells.size()) + " cells where the table has " + std::to_string(count) +
                       " columns: complete or remove the line",

@@ -108,6 +108,9 @@ class Reading {
     if (!lognormal_) return {from, to};
     return {std::min(from, std::log(median_) - far * dispersion_), std::max(to, std::log(median_) + far * dispersion_)};
   }
+  bool never_exceeds() const {
+    return !lognormal_ && std::ranges::all_of(nodes_, [](const Node& node) { return node.p.value == 0; });
+  }
   // The same of its points.
   std::pair<double, double> ends() const {
     return {std::log(nodes_[lognormal_ ? 0 : 1].im), std::log(nodes_.back().im)};
@@ -220,6 +223,8 @@ Probability between(std::span<const Curve* const> curves, std::span<const double
   const Probability at_im = blend(here, weights);
   if (std::ranges::any_of(readings, [](const Reading& r) { return !r.known() || r.falls_from_the_start(); }))
     return at_im;
+  // Curves in which nothing ever happened.
+  if (std::ranges::all_of(readings, [](const Reading& r) { return r.never_exceeds(); })) return at_im;
   const AtEqualProbability value(readings, weights, &Probability::value, &Probability::value),
       lower(readings, weights, &Probability::lower, &Probability::upper),
       upper(readings, weights, &Probability::upper, &Probability::lower);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -66,31 +67,52 @@ struct Said {
   std::string unit = {};
 };
 
-// The unit that a line tells. Most surely by "IN UNITS OF G. FILTER POINTS: ...", where what stands behind is the unit, whether it is known or
-// not; then by "UNITS: M/S2", or in the line of the motion itself, "ACCELERATION TIME SERIES IN CM/S2", "ACCELERATION (M/S2)"; least by a unit
-// that stands so elsewhere. What a line tells of peaks may be in any unit.
-Said unit_in(const std::string& line) {
+std::vector<std::string> words_of(const std::string& line) {
   std::vector<std::string> words;
   for (const std::string_view part : split(line, " \t,()[]:=;")) {
     words.emplace_back(part);
     while (words.back().ends_with('.')) words.back().pop_back();
   }
-  for (std::size_t i = 2; i < words.size(); ++i)
-    if (words[i - 1] == "of" && words[i - 2] == "units") return {3, words[i]};
+  return words;
+}
+
+bool is_number(const std::string& word) {
+  double value = 0;
+  return std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc{};
+}
+
+// Where "PEAK ACCELERATION IN G: 0.35" begins, or "PGA = 469.9 CM/S2": in what unit a peak is told says nothing of the motion.
+std::size_t told_peak(const std::vector<std::string>& words) {
+  constexpr std::size_t near = 5;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    if (!is_one_of(word, {"pga", "pgv", "pgd", "max", "maximum"}) && !word.starts_with("peak")) continue;
+    for (std::size_t k = i + 1; k < std::min(words.size(), i + near); ++k)
+      if (is_number(words[k])) return i;
+  }
+  return words.size();
+}
+
+// The unit that a line tells. Most surely by "IN UNITS OF G. FILTER POINTS: ...", where what stands behind is the unit, whether it is known or
+// not; then by "UNITS: M/S2", or in the line of the motion itself, "ACCELERATION TIME SERIES IN CM/S2", "ACCELERATION (M/S2)"; least by a unit
+// that stands so elsewhere.
+Said unit_in(const std::string& line) {
+  std::vector<std::string> words = words_of(line);
+  words.resize(told_peak(words));
   const auto has = [&](const std::string& word) { return line.find(word) != std::string::npos; };
-  if (has("peak") || has("pga") || has("pgv") || has("maxim")) return {};
-  const bool of_motion = has("accel") || has("time series") || has("time history");
+  const bool of_motion = has("accel") || has("time series") || has("time history") ||
+                         std::find(words.begin(), words.end(), "acc") != words.end();
   Said found;
-  for (std::size_t i = 0; i < words.size() && found.rank < 2; ++i) {
+  for (std::size_t i = 0; i < words.size(); ++i) {
     const std::string &word = words[i], before = i > 0 ? words[i - 1] : "";
+    if (i > 1 && before == "of" && words[i - 2] == "units") return {3, word};
     const bool stated = is_one_of(before, {"units", "unit"}), behind = is_one_of(before, {"in", "of", "are"});
     const bool enclosed = word != "g" && (has("(" + word + ")") || has("[" + word + "]"));
     const bool parted = i + 1 < words.size() && words[i + 1].starts_with('/') && is_one_of(word, {"mm", "cm", "m"});
-    const bool known = is_acceleration_unit(word);
-    if ((stated || (of_motion && (behind || enclosed))) && (looks_like_unit(word) || parted))
+    const bool known = is_acceleration_unit(word), bare = of_motion && ((known && word != "g") || word == "%g");
+    if (found.rank < 2 &&
+        (bare || ((stated || (of_motion && (behind || enclosed))) && (looks_like_unit(word) || parted))))
       found = {2, parted ? word + words[i + 1] : word};
-    else if (of_motion && word.find('/') != std::string::npos && known)
-      found = {2, word};
     else if (found.rank == 0 && (behind || enclosed) && known)
       found = {1, word};
   }
@@ -101,8 +123,7 @@ std::string read_unit(const RecordText& text, std::size_t until) {
   Said found;
   for (std::size_t i = 0; i < until; ++i) {
     const std::string line = lower_case(text.line(i));
-    if (line.find("velocity time series") != std::string::npos ||
-        line.find("displacement time series") != std::string::npos)
+    if (line.find("velocity time") != std::string::npos || line.find("displacement time") != std::string::npos)
       text.fail(i, "not a record of acceleration (the header says so): use the .AT2 file");
     if (Said said = unit_in(line); said.rank > found.rank) found = std::move(said);
   }

@@ -152,11 +152,14 @@ class Importer {
     return longest;
   }
 
-  static bool is_whole(double ratio) { return std::abs(ratio - std::round(ratio)) < 1e-3 * ratio; }
+  // So near to it that all readings stand on the grid.
+  static bool is_whole(double ratio, std::size_t readings) {
+    return std::abs(ratio - std::round(ratio)) * static_cast<double>(readings) < 0.05;
+  }
   // That of a reading of the response, where these stand on the grid; else as early as both run.
   static double first_instant(const File& floor, const Series& times, double steps_a_reading) {
     const double both = std::max(floor.time.front(), times.front());
-    if (!is_whole(steps_a_reading)) return both;
+    if (!is_whole(steps_a_reading, times.size())) return both;
     const auto first = std::ranges::find_if(times, [&](double time) { return time >= both; });
     return first == times.end() ? both : *first;
   }
@@ -192,7 +195,7 @@ class Importer {
     t.test.role = lab.role;
     t.test.dt_s = step_s;
     const double steps_a_reading = std::round(response.step_s / step_s);
-    if (is_whole(response.step_s / step_s) && steps_a_reading <= measurement::most_steps_a_reading)
+    if (is_whole(response.step_s / step_s, times.size()) && steps_a_reading <= measurement::most_steps_a_reading)
       t.test.steps_a_reading = std::max(1, static_cast<int>(steps_a_reading));
     t.test.slip_m = of(response, times, lab.slip);
     t.test.rotation_rad = of(response, times, lab.rotation);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <freestand/error.hpp>
+#include <limits>
 
 #include "base/shown_text.hpp"
 #include "measurement/data/floor_readings.hpp"
@@ -36,37 +37,62 @@ Series curve_at(const File& file, Series places, const LabColumn& column, bool s
 double digit_of(const Series& time) {
   for (int digits = 0; digits < 9; ++digits) {
     const double scale = std::pow(10, digits);
-    if (std::ranges::all_of(time, [&](double t) { return std::abs(t * scale - std::round(t * scale)) < 1e-4; }))
+    if (std::ranges::all_of(time, [&](double t) {
+          const double rounding = std::max(1e-4, 4 * std::numeric_limits<double>::epsilon() * std::abs(t) * scale);
+          return std::abs(t * scale - std::round(t * scale)) < rounding;
+        }))
       return 1 / scale;
   }
   return 0;
 }
 
 // Longer than the usual step, by more than the clock's last digit makes it: rows are missing.
-bool lacks_rows(double step, double usual, double digit) {
-  return step > longest_step * usual && step > usual + 0.999 * digit;
+bool lacks_rows(double step, const Clock& clock) {
+  return step > longest_step * clock.step_s && step > clock.step_s + 0.999 * clock.digit_s;
 }
 
-// The usual step, of a clock that is read to some digits or jitters: the mean one, missing rows left out, in as few digits as that is known to.
-double usual_step(const Series& time, double digit) {
-  double mean = (time.back() - time.front()) / static_cast<double>(time.size() - 1), off = 0, count = 0;
-  for (double before = 0; mean != before;) {
-    before = mean;
-    double sum = 0, place = 0;  // place: the clock against that step
-    off = count = 0;
+struct Evenness {
+  double mean = 0, off = 0, count = 0;  // off: by which the clock strays from even steps of that mean
+};
+// Missing rows are left out, as seen with these steps at first.
+Evenness evenness(const Series& time, Clock clock) {
+  Evenness found{clock.step_s};
+  for (double before = 0; found.mean != before;) {
+    before = clock.step_s = found.mean;
+    double sum = 0, place = 0, least = 0, most = 0;
+    found.count = 0;
     for (std::size_t i = 1; i < time.size(); ++i) {
       const double step = time[i] - time[i - 1];
-      if (lacks_rows(step, before, digit)) continue;
-      sum += step, ++count;
-      off = std::max(off, std::abs(place += step - before));
+      if (lacks_rows(step, clock)) continue;
+      sum += step, ++found.count;
+      place += step - before;
+      least = std::min(least, place), most = std::max(most, place);
     }
-    mean = sum / count;
+    found.mean = sum / found.count;
+    found.off = most - least;
   }
+  return found;
+}
+
+// The usual step, of a clock that is read to some digits or jitters: the mean one, in as few digits as that is known to. The last digit makes a
+// step longer only where it is all that does.
+Clock clock_of(const Series& time) {
+  Series steps;
+  for (std::size_t i = 1; i < time.size(); ++i) steps.push_back(time[i] - time[i - 1]);
+  const auto middle = steps.begin() + static_cast<long>(steps.size() / 2);
+  std::nth_element(steps.begin(), middle, steps.end());
+  Clock clock{(time.back() - time.front()) / static_cast<double>(time.size() - 1), digit_of(time)};
+  Evenness even = evenness(time, clock);
+  if (even.off > 1.01 * clock.digit_s) clock = {*middle, 0}, even = evenness(time, clock);
+  clock.step_s = even.mean;
   for (const double a_second : {1e2, 1e3, 1e4, 1e5, 1e6}) {
-    const double rounded = std::round(mean * a_second) / a_second;
-    if (rounded > 0 && std::abs(rounded - mean) <= 2 * off / count + 1e-9 * mean) return rounded;
+    const double rounded = std::round(even.mean * a_second) / a_second;
+    if (rounded > 0 && std::abs(rounded - even.mean) <= 2 * even.off / even.count + 1e-9 * even.mean) {
+      clock.step_s = rounded;
+      break;
+    }
   }
-  return mean;
+  return clock;
 }
 
 }  // namespace
@@ -91,7 +117,8 @@ Series channel(const LabTable& table, const LabColumn& column) {
 }
 
 File read_file(const LabFile& lab) {
-  File file{read_lab_table(lab.path, lab.time.name), {}};
+  File file;
+  file.table = read_lab_table(lab.path, lab.time.name);
   file.time = channel(file.table, lab.time);
   Series steps;
   for (std::size_t i = 1; i < file.time.size(); ++i) {
@@ -105,11 +132,9 @@ File read_file(const LabFile& lab) {
     throw Error(fmt::format("{} holds {} rows (a history needs ten and more): give the whole of it", lab.path.string(),
                             file.time.size()),
                 Exit::data);
-  file.digit_s = digit_of(file.time);
-  file.step_s = usual_step(file.time, file.digit_s);
+  static_cast<Clock&>(file) = clock_of(file.time);
   for (std::size_t row = 1; row < file.time.size(); ++row)
-    if (const double step = file.time[row] - file.time[row - 1];
-        lacks_rows(step - file.step_s, file.step_s, file.digit_s))
+    if (const double step = file.time[row] - file.time[row - 1]; lacks_rows(step - file.step_s, file))
       throw Error(fmt::format("{}:{}: {:.4g} s are missing before this line (the usual step is {:.4g} s; what happened "
                               "then is not known): cut the file there, or complete it",
                               lab.path.string(), file.table.lines[row], step - file.step_s, file.step_s),
@@ -118,7 +143,7 @@ File read_file(const LabFile& lab) {
 }
 
 bool is_behind_gap(const File& file, std::size_t row) {
-  return row > 0 && lacks_rows(file.time[row] - file.time[row - 1], file.step_s, file.digit_s);
+  return row > 0 && lacks_rows(file.time[row] - file.time[row - 1], file);
 }
 
 Series at_times(const File& file, const Series& time, const LabColumn& column, double start, double step_s,

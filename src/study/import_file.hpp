@@ -10,11 +10,14 @@ namespace freestand::study {
 
 using Series = std::vector<double>;
 
-struct File {
+struct Clock {
+  double step_s = 0;   // the usual one
+  double digit_s = 0;  // the last one of its readings; 0: it jitters by more
+};
+
+struct File : Clock {
   LabTable table;
   Series time;
-  double step_s = 0;   // the usual one
-  double digit_s = 0;  // the clock's last
 };
 
 // Throws Error (Exit::data): too few rows, times that do not rise, or two rows and more that are missing in a row.

@@ -179,6 +179,8 @@ class Import(InFolder):
         block = (self.folder / "block_t01.csv").read_text(encoding="utf-8").split("\n")
         self.write("block_t01.csv", "\n".join(block[:40] + block[41:]))
         self.assertIn("t01: block_t01.csv lacks 1 row, filled by straight lines: 0.02 s before line 41", self.imported().stdout)
+        self.write("block_t01.csv", "\n".join(line for i, line in enumerate(block) if i not in (40, 60, 80, 100, 120)))
+        self.assertIn("t01: block_t01.csv lacks 5 rows", self.imported("five").stdout)
         self.write("lab.yaml", text.replace("acceleration: {column: ACC1, unit: g}", "acceleration: ACC1"))
         self.fail_with(3, ["import", self.lab, "-o", self.folder / "in_g"], "t01: ACC1 has g in its line of units", "without it m/s2 would be taken")
         for name in self.truth:

@@ -54,6 +54,14 @@ TEST_F(LabTables, NamesStandRightAboveTheNumbersOrAboveTheirUnits) {
     EXPECT_THAT(table.columns, ElementsAre("t", "lv"));
     EXPECT_THAT(table.values, ElementsAre(ElementsAre(0, 1), ElementsAre(1, 2)));
   }
+  // A slow column in the last place, one that is empty throughout, words where numbers begin.
+  EXPECT_THAT(read("t,a,temp\n0,0,20.5\n1,1,\n2,2,\n3,3,20.6\n").values[0], ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(read("t,a,temp\ns,g,C\n0,0,20.5\n1,1,\n2,2,\n").columns, ElementsAre("t", "a", "temp"));
+  EXPECT_THAT(read("t,a,n\ns,g,\n0,0,1\n1,1,2\n").units, ElementsAre("s", "g", ""));
+  EXPECT_THAT(read("X_Value\tAcc\tComment\n0\t2\t\n1\t3\t\n", "X_Value").columns,
+              ElementsAre("X_Value", "Acc", "Comment"));
+  EXPECT_THAT(read("t lv\n0,00 1,0\n0,01 2,0\n").values[0], ElementsAre(0, 0.01));
+  EXPECT_THAT(read("t,u,lv\n0,1,OVERLOAD\n1,1,OVERLOAD\n2,1,3\n3,1,4\n4,1,5\n").values[0], ElementsAre(0, 1, 2, 3, 4));
   EXPECT_THAT(read("Time;1;2\n0;1;2\n1;2;3\n", "1").columns, ElementsAre("Time", "1", "2"));
   EXPECT_THAT(read("0,1\n1,2\n").columns, ElementsAre("1", "2"));
   EXPECT_THAT(read("\"t, s\",\"lv, mm\"\n0,1\n1,2\n", "t, s").columns, ElementsAre("t, s", "lv, mm"));

@@ -212,6 +212,15 @@ TEST(Interpolate, ExtrapolatedCurvesRiseAndLieInTheirBands) {
     EXPECT_GT(p.lower, own.value - 2.5 * (own.value - own.lower)) << im;
     EXPECT_LT(p.upper, own.value + 2.5 * (own.upper - own.value)) << im;
   }
+  // Of two in which nothing ever exceeded nothing does.
+  std::array<Curve, 2> none{leap(0.2), leap(0.4)};
+  for (Curve& curve : none)
+    for (Point& point : curve.points) point = {point.im, 0, 0, 0.004, 1000};
+  const std::array<const Curve*, 2> nowhere{&none[0], &none[1]};
+  for (const double t : {0.5, -0.1}) {
+    EXPECT_EQ(between(nowhere, std::array{1 - t, t}, 0.5).value, 0);
+    EXPECT_LT(between(nowhere, std::array{1 - t, t}, 0.5).upper, 0.01);
+  }
   // The flat one of two is taken off.
   const Curve steep = test::curve(0, 0.05, 0.3, 0.1), flat = test::curve(1, 0.05, 0.6, 0.5);
   const std::array<const Curve*, 2> both{&steep, &flat};

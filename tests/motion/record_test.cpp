@@ -114,14 +114,15 @@ TEST_F(Record, At2IsInTheUnitOfItsHeader) {
   for (const char* line :
        {"ACCELERATION TIME SERIES IN CM/SEC**2", "ACCELERATION, UNITS: CM/S**2", "Acceleration (cm/sec**2)",
         "ACCELERATION IN GALS", "UNITS: GALS", "ACCELERATION (cm/s\u00b2)", "UNITS CM/S\u00b2", "ACCELERATION cm/s2",
-        "CORRECTED ACCELERATION (CM/SEC/SEC)", "ACCELERATION IN CM /S2",
+        "CORRECTED ACCELERATION (CM/SEC/SEC)", "ACCELERATION IN CM /S2", "ACCELERATION, GAL",
+        "TWIN PEAKS, ACCELERATION (CM/S2)", "ACCELERATION IN CM/S2, PEAK = 312.4",
         "ACCELERATION IN CM/S2\nPEAK ACCELERATION IN G: 0.35", "STATION IN M DISTRICT, ACCELERATION IN CM/S2"}) {
     SCOPED_TRACE(line);
     expect_samples(read_record(at2(line)), 0.005, seven, 0.01);
   }
   // Units of something, which are not known, are never taken for g; the user may name what they are.
-  for (const char* line : {"ACC (CM/S-2) OF ACCELERATION", "ACCELERATION IN MILLI-G", "ACCELERATION (MG)",
-                           "ACCELERATION (%G)", "ACCELERATION IN CM/S"}) {
+  for (const char* line : {"ACC (CM/S-2) OF ACCELERATION", "ACCELERATION IN MILLI-G", "ACCELERATION (MG)", "ACC. (MG)",
+                           "ACCELERATION %G", "ACCELERATION (%G)", "ACCELERATION IN CM/S"}) {
     SCOPED_TRACE(line);
     expect_data_error(at2(line), 0, "no unit of acceleration");
     expect_samples(read_record(at2(line), {.unit = "cm/s2"}), 0.005, seven, 0.01);
@@ -149,6 +150,8 @@ TEST_F(Record, At2WithABrokenHeaderIsRefused) {
   expect_data_error(write("d.AT2", at2_head + "NPTS= 7, DT= -.005 SEC\n" + seven_text), 0, "not a positive number");
   expect_data_error(write("e.AT2", at2_head + "NPTS, DT\n" + seven_text), 4, "no count and step");
   expect_data_error(write("f.AT2", "a\nb\nVELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 7, DT= .01\n" + seven_text), 3,
+                    "not a record of acceleration");
+  expect_data_error(write("i.AT2", "a\nb\nVELOCITY TIME HISTORY IN UNITS OF CM/S\nNPTS= 7, DT= .01\n" + seven_text), 3,
                     "not a record of acceleration");
   expect_data_error(write("h.AT2", "a\nb\nIN UNITS OF FURLONGS\nNPTS= 7, DT= .01\n" + seven_text), 0,
                     "no unit of acceleration \"furlongs\"");
