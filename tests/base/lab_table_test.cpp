@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <freestand/error.hpp>
 #include <fstream>
+
+#include "support/error_text.hpp"
+#include "support/scratch.hpp"
 
 namespace freestand::lab_table_test {
 namespace {
@@ -15,23 +17,14 @@ using testing::HasSubstr;
 
 class LabTables : public testing::Test {
  protected:
-  ~LabTables() override { std::filesystem::remove(file_); }
   LabTable read(const std::string& text, const std::string& column = "t") const {
-    std::ofstream(file_, std::ios::binary) << text;
-    return read_lab_table(file_, column);
+    std::ofstream(folder_ / "lab.csv", std::ios::binary) << text;
+    return read_lab_table(folder_ / "lab.csv", column);
   }
   std::string problem(const std::string& text) const {
-    try {
-      read(text);
-    } catch (const Error& error) {
-      EXPECT_EQ(error.exit(), Exit::data);
-      return error.what();
-    }
-    return "";
+    return test::error_text(Exit::data, [&] { read(text); });
   }
-  const std::filesystem::path file_ =
-      std::filesystem::temp_directory_path() /
-      ("freestand-lab-" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".csv");
+  const test::Scratch folder_{"lab_tables"};
 };
 
 TEST_F(LabTables, NamesStandRightAboveTheNumbersOrAboveTheirUnits) {

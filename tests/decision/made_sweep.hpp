@@ -75,4 +75,15 @@ struct Sweep {
   }
 };
 
+// One whose share levels off at 0.5.
+inline Sweep half_that_overturn() {
+  Sweep sweep;
+  sweep.records = 200;
+  sweep.per_record = 200;
+  sweep.median = 0.3;
+  sweep.between = sweep.within = 0.2;
+  sweep.ceiling = 0.5;
+  return sweep;
+}
+
 }  // namespace freestand::decision::made_sweep

@@ -17,13 +17,7 @@ using testing::HasSubstr;
 
 // By counts, where the hazard curve begins at an intensity that was swept, and shares below it are known.
 TEST(RiskReach, CountsMissWhatTheHazardCurveBeginsAfter) {
-  Sweep sweep;
-  sweep.records = 200;
-  sweep.per_record = 200;
-  sweep.median = 0.3;
-  sweep.between = sweep.within = 0.2;
-  sweep.ceiling = 0.5;
-  const fragility::Result result = sweep.fit(3, 200);
+  const fragility::Result result = half_that_overturn().fit(3, 200);
   const double whole = risk(result, power_law(1e-4, 2, 0.01, 30)).rows.at(0).by_counts.value;
   for (const double start : {0.2, 0.3, 0.6}) {
     const RiskRow row = risk(result, power_law(1e-4, 2, start, 30)).rows.at(0);

@@ -280,12 +280,7 @@ TEST(Risk, WhatComesFromBeyondTheHazardCurveIsWarnedOfOrRefused) {
 
 // By counts, of a demand whose share levels off at 0.5: above the end of the hazard curve, at which 0.25 exceed it, all may.
 TEST(Risk, CountsMissWhatTheHazardCurveEndsBefore) {
-  Sweep sweep;
-  sweep.records = 200;
-  sweep.per_record = 200;
-  sweep.median = 0.3;
-  sweep.between = sweep.within = 0.2;
-  sweep.ceiling = 0.5;
+  const Sweep sweep = half_that_overturn();
   const fragility::Result result = sweep.fit(3, 200);
   for (const double end : {0.3, 0.6}) {
     const RiskRow row = risk(result, power_law(1e-4, 2, 0.01, end)).rows.at(0);
