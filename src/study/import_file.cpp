@@ -57,7 +57,8 @@ struct Evenness {
 // Missing rows are left out, as seen with these steps at first.
 Evenness evenness(const Series& time, Clock clock) {
   Evenness found{clock.step_s};
-  for (double before = 0; found.mean != before;) {
+  double before = 0;
+  for (int again = 0; again < 20 && found.mean != before; ++again) {
     before = clock.step_s = found.mean;
     double sum = 0, place = 0, least = 0, most = 0;
     found.count = 0;
