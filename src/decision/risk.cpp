@@ -133,10 +133,11 @@ class Row {
   double before_start(const HazardCurve& longer, bool nothing, const CurveReach& curve) const {
     const Range before{0, hazard_.first()};
     if (row_.recommended == By::function) return annual_rate(longer, fragility(), before);
+    if (!(risk_.im_least < hazard_.first()))
+      return counts_.rate_below(longer, before);  // none of the sweep lies before it
     ByCounts counts(longer, result_, edp_, capacity_, f_, {risk_.im_least, risk_.im_most});
     if (nothing) return std::max(0.0, counts.banded(curve).upper - row_.rate().upper);
-    return std::max(0.0, counts.rate(before)) +
-           counts.rate_below(longer, {0, std::min(risk_.im_least, hazard_.first())});
+    return std::max(0.0, counts.rate(before)) + counts.rate_below(longer, {0, risk_.im_least});
   }
 
   void outside(const CurveReach& curve) {

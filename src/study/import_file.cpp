@@ -121,15 +121,12 @@ File read_file(const LabFile& lab) {
   File file;
   file.table = read_lab_table(lab.path, lab.time.name);
   file.time = channel(file.table, lab.time);
-  Series steps;
-  for (std::size_t i = 1; i < file.time.size(); ++i) {
-    steps.push_back(file.time[i] - file.time[i - 1]);
-    if (steps.back() <= 0)
+  for (std::size_t i = 1; i < file.time.size(); ++i)
+    if (file.time[i] <= file.time[i - 1])
       throw Error(fmt::format("{}:{}: time does not rise (column {}): correct it, or cut the file there",
                               lab.path.string(), file.table.lines[i], shown(lab.time.name)),
                   Exit::data);
-  }
-  if (steps.size() < 10)
+  if (file.time.size() < 11)
     throw Error(fmt::format("{} holds {} rows (a history needs ten and more): give the whole of it", lab.path.string(),
                             file.time.size()),
                 Exit::data);

@@ -1,5 +1,7 @@
 #include "measurement/data/channel.hpp"
 
+#include "measurement/data/every.hpp"
+
 namespace freestand::measurement {
 
 const char* name(Channel channel) {
@@ -13,10 +15,7 @@ const std::vector<double>& history(const Test& test, Channel channel) {
 }
 
 std::vector<double> readings(const Test& test, Channel channel) {
-  const std::vector<double>& all = history(test, channel);
-  std::vector<double> read;
-  for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(test.steps_a_reading)) read.push_back(all[i]);
-  return read;
+  return every(test.steps_a_reading, history(test, channel));
 }
 
 double noise(const Noise& noise, Channel channel) {

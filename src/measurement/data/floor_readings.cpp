@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 
+#include "measurement/data/every.hpp"
 #include "measurement/data/ground.hpp"
 
 namespace freestand::measurement {
@@ -25,12 +26,6 @@ std::vector<double> in_pieces(const std::vector<double>& readings, int pieces) {
   std::vector<double> all = curve_through(places, readings, true, 1.0 / pieces, count);
   for (std::size_t i = 0; i < readings.size(); ++i) all[i * static_cast<std::size_t>(pieces)] = readings[i];
   return all;
-}
-
-std::vector<double> every(int so_many, const std::vector<double>& values) {
-  std::vector<double> some;
-  for (std::size_t i = 0; i < values.size(); i += static_cast<std::size_t>(so_many)) some.push_back(values[i]);
-  return some;
 }
 
 }  // namespace
