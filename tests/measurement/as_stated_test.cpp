@@ -1,5 +1,5 @@
 // What a model misses because of the dimensions that it was given, against what it lacks.
-#include "measurement/laboratory/as_stated.hpp"
+#include "measurement/fit/as_stated.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -50,6 +50,38 @@ TEST(Posterior, IntervalsHoldTheTruthAsOftenAsTheySay) {
   EXPECT_NEAR(rank, 0.5, 3 / std::sqrt(12.0 * noisy_sets));  // three standard deviations of the mean of uniform ranks
 }
 
+// The floor read too large by that factor, and the responses stamped so late, to the next reading.
+Dataset read_otherwise(Dataset data, double gain, double late_s) {
+  for (measurement::Test& t : data.tests) {
+    t.scale *= gain;
+    const std::vector<double> before = t.slip_m;
+    const long late = std::lround(late_s / t.dt_s), last = static_cast<long>(before.size()) - 1;
+    for (long k = 0; k <= last; ++k)
+      t.slip_m[static_cast<std::size_t>(k)] = before[static_cast<std::size_t>(std::clamp(k - late, 0L, last))];
+  }
+  return data;
+}
+
+// A laboratory that states its floor's gain to 1 % and its clocks to 10 ms may be off by as much: intervals hold the truth all the same.
+TEST(Posterior, IntervalsHoldTheTruthWhereWhatIsStatedIsOffWithinItsTolerances) {
+  const Dataset truth = test::made_dataset(weakening_cabinet(), 0);
+  const Values numbers = {0.2, 0.3, 0.1};
+  int holds[3] = {};
+  for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(noisy_sets); ++key) {
+    test::KeyedRandom random(41, key);
+    const Dataset data =
+        test::with_noise(read_otherwise(truth, 1 + 0.01 * random.normal(), 0.01 * random.normal()), key);
+    const Bench bench(data, 0);
+    const Posterior p = posterior(bench, test::fitted(bench, weakening(bench), numbers), run_here);
+    EXPECT_GT(p.counted, 0.3) << key;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Interval interval = p.interval(k, 0.9);
+      holds[k] += interval.lower <= numbers[k] && numbers[k] <= interval.upper;
+    }
+  }
+  for (const int number : holds) EXPECT_GE(number, held_often.least);
+}
+
 // Friction that scatters by 5 %: the mean's interval holds the truth, and the draws hold the friction of a test to come.
 TEST(Posterior, FrictionOfAnotherTestScattersAsThatOfTheTestsDoes) {
   constexpr double scatter = 0.05;

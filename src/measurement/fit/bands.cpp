@@ -33,12 +33,13 @@ std::vector<Bands> predicted_bands(const Bench& bench, const ModelSpec& model, c
     if (!test.has_history()) return ends;
     std::vector<Asked> asked;
     for (std::size_t k = 0; k < predictions; ++k) {
+      const Drawn drawn = drawn_in_laboratory(model, posterior, k, predictions);
       const auto& replays = bench.replays(i);
       const FloorMotion* motion = replays.empty() ? nullptr : &replays[k % replays.size()];
-      asked.push_back({model, test, spread_row(posterior.draws, k, predictions), motion});
+      asked.push_back({drawn.model, test, drawn.x, motion});
     }
-    const Values& middle_row = spread_row(posterior.draws, 0, 1);
-    const Spread unread = bench.unread_spread(model, i, middle_row, predict(model, test, middle_row));
+    const auto [middle_model, middle_row] = drawn_in_laboratory(model, posterior, 0, 1);
+    const Spread unread = bench.unread_spread(middle_model, i, middle_row, predict(middle_model, test, middle_row));
     std::vector<Prediction> all_of_them = predict(asked);
     std::erase_if(all_of_them, [](const Prediction& one) { return one.failed(); });
     for (int c = 0; c < channel_count && all_of_them.size() > 1; ++c) {

@@ -200,6 +200,12 @@ Eigen::VectorXd Judge::change(std::size_t i, const Prediction& from, const Predi
       bench_, bench_.test(tests_[i]), to, [&](Channel c) -> const auto& { return from.channel(c); })(parts_->kept[i]);
 }
 
+Eigen::MatrixXd Judge::weighed(std::size_t i, const Eigen::MatrixXd& M) const {
+  const Eigen::MatrixXd& A = parts_->A[i];
+  if (A.cols() == 0) return M;
+  return M - A * parts_->inner[i].solve(A.transpose() * M);
+}
+
 Eigen::VectorXd Judge::against(std::size_t i, const Eigen::MatrixXd& M, const Eigen::VectorXd& r) const {
   const Eigen::MatrixXd& A = parts_->A[i];
   if (A.cols() == 0) return M.transpose() * r;

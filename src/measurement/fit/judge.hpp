@@ -54,6 +54,8 @@ class Judge {
     Eigen::MatrixXd slow;        // by how much the covariance grows with more_slow_power; empty where noise is white
   };
   Products products(std::size_t i, const Eigen::MatrixXd& columns) const;
+  // C^-1 M.
+  Eigen::MatrixXd weighed(std::size_t i, const Eigen::MatrixXd& columns) const;
   // M^T C^-1 r.
   Eigen::VectorXd against(std::size_t i, const Eigen::MatrixXd& columns, const Eigen::VectorXd& r) const;
 

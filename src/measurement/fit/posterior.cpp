@@ -8,9 +8,9 @@
 #include <numeric>
 
 #include "base/random.hpp"
+#include "measurement/fit/history_misfit.hpp"
 #include "measurement/fit/importance.hpp"
 #include "measurement/fit/least_squares.hpp"
-#include "measurement/fit/test_pulls.hpp"
 #include "measurement/predict/placements.hpp"
 
 namespace freestand::measurement {
@@ -27,7 +27,7 @@ void leave_the_mean(const ModelFit& fit, Posterior& out) {
   std::sort(out.of_mean.begin(), out.of_mean.end());
   out.draws = out.of_mean;
   const int placed = placement_number(fit.model);
-  const double freedom = std::max(1.0, out.freedom / std::max<double>(static_cast<double>(fit.x.size()), 1));
+  const double freedom = std::max(1.0, out.freedom_a_number);
   const auto student = [&](double z) { return gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(z), freedom); };
   for (std::size_t s = 0; s < out.draws.size(); ++s) {
     Values& x = out.draws[s];
@@ -43,69 +43,32 @@ void leave_the_mean(const ModelFit& fit, Posterior& out) {
 
 Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
   Posterior out;
-  const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
-  const OwnShifts own(bench, judge, fit);
-  std::vector<double> shifts;
-  for (const Values& best :
-       jobs("friction of each test", own.count(), [&](std::size_t i) { return Values{own.best(i)}; }))
-    shifts.push_back(best[0]);
-  std::vector<Pull> pulls = pulls_of(own, shifts, jobs);
-  out.friction_scatter = friction_scatter(pulls);
-  const double tau2 = out.friction_scatter * out.friction_scatter;
-  if (tau2 == 0) {
-    shifts.assign(own.count(), 0);
-    pulls = pulls_of(own, shifts, jobs);
-  }
-  const Dispersion found = dispersion_of(pulls, tau2);
+  const HistoryMisfit misfit(bench, fit, jobs);
+  const Dispersion& found = misfit.dispersion();
+  out.friction_scatter = misfit.friction_scatter();
   out.dispersion = found.s;
   out.freedom = found.freedom;
-  // The directions of friction, which the numbers hardly change.
-  std::vector<MatrixXd> friction;
-  for (std::size_t i = 0; i < own.count() && tau2 > 0; ++i) friction.push_back(own.slopes(i, shifts[i]).rightCols(1));
-  const Values& x = fit.x;
+  out.freedom_a_number = found.numbers > 0 ? found.freedom / found.numbers : 0;
+  out.stated_otherwise = misfit.stated_otherwise();
   const Misfits misfits = [&](const std::vector<Values>& points) {
-    const auto answers = jobs("draws of the numbers", points.size(), [&](std::size_t s) {
-      if (points[s].empty()) return Values{no_fit};
-      double moved = 0;  // of ln mu
-      for (std::size_t k = 0; k < x.size(); ++k)
-        if (is_friction(fit.model.free[k])) moved = std::log(points[s][k] / x[k]);
-      double G = 0;
-      for (std::size_t i = 0; i < own.count(); ++i) {
-        // With the test's own friction held, and from there the shift that is likeliest, along its direction. What else the numbers do
-        // the test's friction makes up for, by more than its direction holds for: so from there once more.
-        double shift = tau2 > 0 ? shifts[i] - moved : 0, of_test = 0;
-        for (int turn = 0; turn < 2; ++turn) {
-          const Prediction at = own.at(i, points[s], shift);
-          if (at.failed()) return Values{no_fit};
-          MatrixXd r = judge.residual(i, at);
-          if (tau2 > 0) {
-            r.conservativeResize(Eigen::NoChange, 2);
-            r.col(1) = friction[i];
-          }
-          const VectorXd against = judge.against(i, r, r.col(0));
-          of_test = against[0];
-          if (tau2 == 0) break;
-          const double ff = pulls[i].gram.bottomRightCorner<1, 1>()(0),
-                       fr = against[1] - shift * ff;  // at a shift of 0
-          of_test += shift * shift * ff - 2 * shift * against[1] - tau2 * fr * fr / (1 + tau2 * ff);
-          shift = -tau2 * fr / (1 + tau2 * ff);
-        }
-        G += of_test;
-      }
-      return Values{G};
-    });
+    const auto answers =
+        jobs("draws of the numbers", points.size(), [&](std::size_t s) { return Values{misfit(points[s])}; });
     std::vector<double> G;
     for (const Values& answer : answers) G.push_back(answer[0]);
     return G;
   };
-  const Pull sum = sum_of(pulls, tau2);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.gram);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(misfit.rates());
   // No number is proposed wider than its range.
   const VectorXd rates = solved.eigenvalues().cwiseMax(out.dispersion * out.dispersion);
   const MatrixXd inverse =
       solved.eigenvectors() * rates.cwiseInverse().asDiagonal() * solved.eigenvectors().transpose();
-  // The fit knows one friction of all tests: where each has its own, other numbers are likelier.
-  draw_by_importance(fit, -inverse * sum.against, out.dispersion * out.dispersion * inverse, misfits, out);
+  // The fit knows one friction of all tests, and all that is stated as stated: where that is not so, other numbers are likelier.
+  draw_by_importance(fit, misfit.step(inverse), out.dispersion * out.dispersion * inverse, misfits, out);
+  if (misfit.deviates())
+    out.better.clear();  // better only where the laboratory is as it does not say: that is told instead
+  std::sort(out.of_mean.begin(), out.of_mean.end());
+  out.in_laboratory = misfit.in_laboratory();
+  for (std::size_t s = 0; s < out.of_mean.size(); ++s) out.stated.push_back(misfit.stated_beside(out.of_mean[s], s));
   return out;
 }
 

@@ -5,10 +5,18 @@
 //
 //   s^2 = sum g_i^T H^-1 g_i / trace V,   nu = (trace V)^2 / trace V^2,   V_ij = d_ij K_i - K_i K_j,  K_i = H^-1/2 H_i H^-1/2
 //
-// (V is their covariance where s = 1; nu, after Satterthwaite, is p (n - 1) of n tests that say equally much of p numbers). Then
+// (J over all numbers, those that the laboratory states among them; V is their covariance where s = 1; nu, after Satterthwaite, is p (n - 1) of n tests that say equally much of p numbers). Then
 // the numbers have Student's density, flat before in the unit cube in which fits move (to_unit: logarithms where they span much):
 //
 //   p(x) ~ (1 + (G(x) - G(fit)) / (nu s^2))^-(nu + p)/2
+//
+// What the laboratory states may be off by deviations d, in standard deviations (Dataset::tolerance): they are 0 +- 1 beforehand, and G is that where
+// they are likeliest,
+//
+//   G(x) = min over d of  sum |r_i(x) + D_i d|^2 + s^2 d^T d
+//
+// with the derivatives D_i where both x and d are likeliest. So a draw is not surer of its numbers than a width, an accelerometer's gain
+// and a clock let it be.
 //
 // Friction may differ from test to test: the standard deviation tau of its logarithm is estimated by restricted likelihood (each test
 // has a direction f_i = d history/d ln mu beside the floor's replays in C_i), and kept where its absence has a p value below 5 %.
@@ -33,11 +41,17 @@ struct Posterior {
   std::vector<Values>
       draws;  // as ModelFit::x, by the first number; friction and placement of another test. Empty: none
   std::vector<Values> of_mean;  // the same rows with the mean friction, or the middle of the placements
+  // Histories: the model in which what the laboratory states is free behind the numbers of the fit, and what it is in each of the draws.
+  ModelSpec in_laboratory = {};
+  std::vector<Values> stated = {};
   double dispersion = 1;        // s
   double freedom = 0;           // nu; 0: one test alone, where s = 1 is taken
+  double freedom_a_number = 0;  // nu over how many numbers the tests speak of: n - 1 of n tests that say equally much
   double friction_scatter = 0;  // tau
   // Peaks: ln(measured/model) of another test's peak slip beside the draws: its mean and standard deviation; 0: not known.
   double slip_bias_ln = 0, slip_scatter_ln = 0;
+  std::string stated_otherwise =
+      {};  // "the width is 1.2 % smaller than stated": what would fit the histories better; empty: nothing would
   Values better = {};  // numbers that fit the tests better than the fit does, beyond chance; empty: none were met
   // Share of the points that count: (sum w)^2/(n sum w^2). 0: G is so rough that too few do, and the draws are those of derivatives at the fit.
   double counted = 1;
@@ -56,6 +70,19 @@ bool take_intervals(const Posterior&, ModelFit&);
 // The k-th of `count` rows that lie evenly over all.
 inline const Values& spread_row(const std::vector<Values>& rows, std::size_t k, std::size_t count) {
   return rows[(2 * k + 1) * rows.size() / (2 * count)];
+}
+
+// The k-th of `count` draws, as it is in the laboratory: for predictions of its tests.
+struct Drawn {
+  const ModelSpec& model;
+  Values x;
+};
+inline Drawn drawn_in_laboratory(const ModelSpec& model, const Posterior& open, std::size_t k, std::size_t count) {
+  Drawn one{open.stated.empty() ? model : open.in_laboratory, spread_row(open.draws, k, count)};
+  if (open.stated.empty()) return one;
+  const Values& stated = spread_row(open.stated, k, count);
+  one.x.insert(one.x.end(), stated.begin(), stated.end());
+  return one;
 }
 
 // Friction that differs from test to test is drawn where it is a number of the fit.

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "measurement/fit/slopes.hpp"
+#include "measurement/fit/stated_numbers.hpp"
 
 namespace freestand::measurement {
 
@@ -14,9 +15,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-namespace {
-
-// The numbers' part of a test's pull where the friction of the test is off by a number of variance tau2.
 Pull allowing(const Pull& test, double tau2) {
   const Index p = test.gram.rows() - 1;
   const double share = tau2 / (1 + tau2 * test.gram(p, p));
@@ -25,33 +23,35 @@ Pull allowing(const Pull& test, double tau2) {
           test.against.head(p) - share * test.against[p] * f};
 }
 
-}  // namespace
-
-OwnShifts::OwnShifts(const Bench& bench, const Judge& judge, const ModelFit& fit)
-    : bench_(bench), judge_(judge), fit_(fit), model_(fit.model), tests_(tests_of(bench.data(), Role::calibration)) {
-  model_.friction_factor = {.free = static_cast<int>(fit.x.size())};
+OwnShifts::OwnShifts(const Bench& bench, const Judge& judge, const AsStated& place)
+    : bench_(bench),
+      judge_(judge),
+      place_(place),
+      model_(place.model),
+      tests_(tests_of(bench.data(), Role::calibration)) {
+  model_.friction_factor = {.free = static_cast<int>(place.x.size())};
   // Whose unit of the cube is one of the logarithm.
   model_.free.push_back(
       {.name = "factor", .lower = 0.1, .upper = 10, .low = std::exp(-0.5), .high = std::exp(0.5), .logarithmic = true});
 }
 
-Prediction OwnShifts::at(std::size_t i, const Values& numbers, double shift) const {
-  Values x = numbers;
+Prediction OwnShifts::at(std::size_t i, Values x, double shift) const {
+  x.insert(x.end(), place_.x.begin() + static_cast<std::ptrdiff_t>(x.size()), place_.x.end());
   x.push_back(std::exp(shift));
   return predict(model_, bench_.test(tests_[i]), x);
 }
 
 MatrixXd OwnShifts::slopes(std::size_t i, double shift) const {
-  Values x = fit_.x;
+  Values x = place_.x;
   x.push_back(std::exp(shift));
-  MatrixXd M = slopes_of(judge_, bench_.test(tests_[i]), i, model_, x, at(i, fit_.x, shift));
+  MatrixXd M = slopes_of(judge_, bench_.test(tests_[i]), i, model_, x, at(i, place_.x, shift));
   VectorXd of_numbers = VectorXd::Zero(M.rows());
   bool held = false;
-  for (std::size_t k = 0; k < fit_.x.size(); ++k) {
-    const Free& free = fit_.model.free[k];
+  for (std::size_t k = 0; k < place_.x.size(); ++k) {
+    const Free& free = place_.model.free[k];
     if (!is_friction(free)) continue;
     constexpr double little = 1e-6;
-    const double rate = (to_unit(free, fit_.x[k] * (1 + little)) - to_unit(free, fit_.x[k])) / little;
+    const double rate = (to_unit(free, place_.x[k] * (1 + little)) - to_unit(free, place_.x[k])) / little;
     of_numbers += rate * M.col(static_cast<Index>(k));
     held = true;
   }
@@ -61,7 +61,7 @@ MatrixXd OwnShifts::slopes(std::size_t i, double shift) const {
 
 Pull OwnShifts::pull(std::size_t i, double shift) const {
   const MatrixXd M = slopes(i, shift);
-  Pull pull{judge_.products(i, M).gram, judge_.against(i, M, judge_.residual(i, at(i, fit_.x, shift)))};
+  Pull pull{judge_.products(i, M).gram, judge_.against(i, M, judge_.residual(i, at(i, place_.x, shift)))};
   pull.against -= shift * pull.gram.rightCols(1);
   return pull;
 }
@@ -69,7 +69,7 @@ Pull OwnShifts::pull(std::size_t i, double shift) const {
 double OwnShifts::best(std::size_t i) const {
   constexpr int steps = 6;
   const auto misfit = [&](double shift, VectorXd& r) {
-    const Prediction model = at(i, fit_.x, shift);
+    const Prediction model = at(i, place_.x, shift);
     r = judge_.residual(i, model);
     return model.failed() ? no_fit : judge_.against(i, r, r)[0];
   };
@@ -90,25 +90,37 @@ double OwnShifts::best(std::size_t i) const {
   return shift;
 }
 
-std::vector<Pull> pulls_of(const OwnShifts& own, const std::vector<double>& shifts, const Jobs& jobs) {
+namespace {
+
+Pull known_beforehand(const AsStated& s) {
+  const auto p = static_cast<Index>(s.x.size());
+  Pull stated{MatrixXd::Zero(p, p), VectorXd::Zero(p)};
+  const VectorXd off = deviations(s);
+  stated.against.tail(off.size()) = off / deviation_in_cube;
+  stated.gram.diagonal().tail(off.size()).array() = 1 / (deviation_in_cube * deviation_in_cube);
+  return stated;
+}
+
+}  // namespace
+
+Pulls pulls_of(const OwnShifts& own, const AsStated& place, const std::vector<double>& shifts, const Jobs& jobs) {
   const auto answers = jobs("what the tests say of the numbers", own.count(), [&](std::size_t i) {
     const Pull pull = own.pull(i, shifts[i]);
     Values all(pull.gram.data(), pull.gram.data() + pull.gram.size());
     all.insert(all.end(), pull.against.begin(), pull.against.end());
     return all;
   });
-  std::vector<Pull> pulls;
-  for (const Values& all : answers) {
-    const auto q = static_cast<Index>(std::lround(std::sqrt(all.size() + 0.25) - 0.5));  // q^2 + q numbers
-    pulls.push_back({Eigen::Map<const MatrixXd>(all.data(), q, q), Eigen::Map<const VectorXd>(all.data() + q * q, q)});
-  }
+  Pulls pulls{{}, known_beforehand(place)};
+  const Index q = pulls.stated.gram.rows() + 1;
+  for (const Values& all : answers)
+    pulls.tests.push_back(
+        {Eigen::Map<const MatrixXd>(all.data(), q, q), Eigen::Map<const VectorXd>(all.data() + q * q, q)});
   return pulls;
 }
 
-Pull sum_of(const std::vector<Pull>& pulls, double tau2) {
-  const Index p = pulls.front().gram.rows() - 1;
-  Pull sum{MatrixXd::Zero(p, p), VectorXd::Zero(p)};
-  for (const Pull& test : pulls) {
+Pull sum_of(const Pulls& pulls, double tau2, double weight) {
+  Pull sum{weight * pulls.stated.gram, weight * pulls.stated.against};
+  for (const Pull& test : pulls.tests) {
     const Pull part = allowing(test, tau2);
     sum.gram += part.gram;
     sum.against += part.against;
@@ -119,11 +131,11 @@ Pull sum_of(const std::vector<Pull>& pulls, double tau2) {
 namespace {
 
 // Restricted likelihood of tau, -2 ln.
-double unlikely(const std::vector<Pull>& pulls, double tau) {
+double unlikely(const Pulls& pulls, double tau) {
   const double tau2 = tau * tau;
   const Pull sum = sum_of(pulls, tau2);
   double value = 0;
-  for (const Pull& test : pulls) {
+  for (const Pull& test : pulls.tests) {
     const Index p = test.gram.rows() - 1;
     const double more = 1 + tau2 * test.gram(p, p);
     value += std::log(more) - tau2 * test.against[p] * test.against[p] / more;
@@ -135,7 +147,7 @@ double unlikely(const std::vector<Pull>& pulls, double tau) {
 
 }  // namespace
 
-double friction_scatter(const std::vector<Pull>& pulls) {
+double friction_scatter(const Pulls& pulls) {
   constexpr double least = 1e-4, most = 0.5, factor = 1.05;  // friction is given to no more than that
   double best = 0, value = unlikely(pulls, 0);
   const double without = value;
@@ -145,20 +157,21 @@ double friction_scatter(const std::vector<Pull>& pulls) {
   return gsl_cdf_chisq_Q(std::max(without - value, 0.0), 1) / 2 < 0.05 ? best : 0;
 }
 
-Dispersion dispersion_of(const std::vector<Pull>& pulls, double tau2) {
-  const Pull sum = sum_of(pulls, tau2);
+Dispersion dispersion_of(const Pulls& pulls, double tau2) {
+  const Pull sum = sum_of(pulls, tau2, 0);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.gram);
   const VectorXd rates = solved.eigenvalues().cwiseMax(1e-12 * solved.eigenvalues().maxCoeff());
   const MatrixXd root = solved.eigenvectors() * rates.cwiseSqrt().cwiseInverse().asDiagonal();
   std::vector<MatrixXd> K;
   double square = 0;
   const VectorXd at_best = root * (root.transpose() * sum.against);
-  for (const Pull& test : pulls) {
+  for (const Pull& test : pulls.tests) {
     const Pull part = allowing(test, tau2);
     K.push_back(root.transpose() * part.gram * root);
     square += (root.transpose() * (part.against - part.gram * at_best)).squaredNorm();
   }
-  double trace = 0, trace2 = 0;
+  double trace = 0, trace2 = 0, numbers = 0;
+  for (const MatrixXd& of_test : K) numbers += of_test.trace();
   for (std::size_t i = 0; i < K.size(); ++i)
     for (std::size_t j = 0; j < K.size(); ++j) {
       const MatrixXd V = (i == j ? K[i] : MatrixXd::Zero(K[i].rows(), K[i].cols())) - K[i] * K[j];
@@ -166,7 +179,7 @@ Dispersion dispersion_of(const std::vector<Pull>& pulls, double tau2) {
       trace2 += V.squaredNorm();
     }
   if (!(trace > 1e-6)) return {};  // one test says it all
-  return {std::sqrt(square / trace), trace * trace / trace2};
+  return {std::sqrt(square / trace), trace * trace / trace2, numbers};
 }
 
 }  // namespace freestand::measurement

@@ -1,9 +1,9 @@
-// What each calibration test says of a fit's numbers, by derivatives at the fit: see posterior.hpp.
+// What each calibration test says of a fit's numbers, and of what the laboratory states, by derivatives: see posterior.hpp.
 #pragma once
 
 #include <Eigen/Core>
 
-#include "measurement/fit/judge.hpp"
+#include "measurement/fit/as_stated.hpp"
 
 namespace freestand::measurement {
 
@@ -11,18 +11,19 @@ inline constexpr double no_fit = 1e12;  // misfit of numbers that give no histor
 
 inline bool is_friction(const Free& free) { return free.name.rfind("friction.mu", 0) == 0; }
 
-// Of one test, in the columns of the numbers and, last, of ln mu.
+// Of one test, in the columns of the numbers, those stated among them, and, last, of ln mu.
 struct Pull {
   Eigen::MatrixXd gram;     // M^T C^-1 M
   Eigen::VectorXd against;  // M^T C^-1 r
 };
 
-// The calibration tests, each with a friction of its own, exp(shift) times that of the numbers.
+// The calibration tests, each with a friction of its own, exp(shift) times that of the numbers. What is stated is as it is there.
 class OwnShifts {
  public:
-  OwnShifts(const Bench&, const Judge&, const ModelFit&);
+  OwnShifts(const Bench&, const Judge&, const AsStated&);
   std::size_t count() const { return tests_.size(); }
-  Prediction at(std::size_t i, const Values& numbers, double shift) const;
+  // numbers: of the fit; what is stated is added.
+  Prediction at(std::size_t i, Values numbers, double shift) const;
   // Derivatives in the numbers and, last, in the shift. Where the numbers hold friction it is theirs, to the bit: the two are
   // told apart by what the tests have in common alone.
   Eigen::MatrixXd slopes(std::size_t i, double shift) const;
@@ -34,23 +35,31 @@ class OwnShifts {
  private:
   const Bench& bench_;
   const Judge& judge_;
-  const ModelFit& fit_;
+  const AsStated& place_;
   ModelSpec model_;
   std::vector<std::size_t> tests_;
 };
 
-std::vector<Pull> pulls_of(const OwnShifts&, const std::vector<double>& shifts, const Jobs&);
+// Of all tests; and what is known beforehand, in the numbers alone: deviations of what is stated, 0 +- 1.
+struct Pulls {
+  std::vector<Pull> tests;
+  Pull stated;
+};
+Pulls pulls_of(const OwnShifts&, const AsStated&, const std::vector<double>& shifts, const Jobs&);
 
-// Of all tests, in the numbers alone, where the friction of each is off by a number of variance tau2.
-Pull sum_of(const std::vector<Pull>&, double tau2);
+// The numbers' part of a test's pull where the friction of the test is off by a number of variance tau2.
+Pull allowing(const Pull& test, double tau2);
+
+// Of all, in the numbers alone; `weight` is that of what is stated.
+Pull sum_of(const Pulls&, double tau2, double weight = 1);
 
 // Standard deviation tau of ln mu from test to test, where the tests show one; else 0.
-double friction_scatter(const std::vector<Pull>&);
+double friction_scatter(const Pulls&);
 
-// s, and nu.
+// By how much the tests disagree with each other, whatever is known beforehand: s and nu, and of how many numbers they speak.
 struct Dispersion {
-  double s = 1, freedom = 0;
+  double s = 1, freedom = 0, numbers = 0;
 };
-Dispersion dispersion_of(const std::vector<Pull>&, double tau2);
+Dispersion dispersion_of(const Pulls&, double tau2);
 
 }  // namespace freestand::measurement

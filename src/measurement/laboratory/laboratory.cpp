@@ -1,11 +1,8 @@
 #include "measurement/laboratory/laboratory.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "measurement/fit/starts.hpp"
-#include "measurement/levels.hpp"
 #include "measurement/predict/score.hpp"
 
 namespace freestand::measurement {
@@ -23,50 +20,6 @@ bool shows(const Bench& bench, const ModelSpec& base, const Values& x, const Mod
 }
 
 }  // namespace
-
-bool is_laboratory_fault(const std::string& name) {
-  return name == width_fault || name == centre_fault || name == gain_fault || name == clock_fault;
-}
-
-std::string clock_sentence(const std::string& whose, double late_s) {
-  return fmt::format("{} {:.3f} s {} against the floor's channel", whose, std::abs(late_s),
-                     late_s > 0 ? "late" : "early");
-}
-
-std::string fault_sentence(const std::string& name, double number) {
-  if (name == clock_fault) return clock_sentence("the responses are stamped", number);
-  const double percent = 100 * std::abs(number - 1);
-  const std::string shown = percent < 0.1 ? fmt::format("{:.1g}", percent) : fmt::format("{:.1f}", percent);
-  if (name == gain_fault)
-    return fmt::format("the floor's accelerometer reads {} % too {}", shown, number < 1 ? "much" : "little");
-  const bool width = name == width_fault;
-  return fmt::format("the {} is {} % {} than stated", width ? "width" : "centre of mass", shown,
-                     number < 1 ? (width ? "smaller" : "lower") : (width ? "larger" : "higher"));
-}
-
-std::vector<StatedNumber> stated_numbers(const Tolerance& tolerance, const ModelSpec& model) {
-  std::vector<StatedNumber> all;
-  const auto is_fitted = [](const std::optional<Number>& number) { return number && number->free >= 0; };
-  if (!is_fitted(model.width) && !model.slenderness)
-    all.push_back({width_fault, &ModelSpec::width_factor, tolerance.width});
-  if (!is_fitted(model.centre_height))
-    all.push_back({centre_fault, &ModelSpec::centre_height_factor, tolerance.centre_height});
-  all.push_back({gain_fault, &ModelSpec::floor_gain, tolerance.floor_gain});
-  all.push_back({clock_fault, &ModelSpec::clock_behind, tolerance.clock_s, "s"});
-  std::erase_if(all, [&](const StatedNumber& s) { return s.deviation <= 0 || (model.*s.number).free >= 0; });
-  return all;
-}
-
-void let_free(ModelSpec& model, const StatedNumber& stated) {
-  const double value = (model.*stated.number).value, reach = fault_deviations * stated.deviation;
-  model.*stated.number = {.free = static_cast<int>(model.free.size())};
-  model.free.push_back({.name = std::string("laboratory.") + stated.name,
-                        .unit = stated.unit,
-                        .lower = value - reach,
-                        .upper = value + reach,
-                        .low = value - reach,
-                        .high = value + reach});
-}
 
 std::vector<LaboratoryFault> laboratory_faults(const Bench& bench, const ModelSpec& base, const Values& x) {
   std::vector<LaboratoryFault> found;

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "measurement/fit/as_stated.hpp"
 #include "measurement/fit/judge.hpp"
-#include "measurement/laboratory/as_stated.hpp"
 #include "measurement/levels.hpp"
 
 namespace freestand::measurement {

@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "measurement/laboratory/as_stated.hpp"
+#include "measurement/fit/as_stated.hpp"
 #include "measurement/verdict/diagnose.hpp"
 #include "measurement/verdict/pairs.hpp"
 

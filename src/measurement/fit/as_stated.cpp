@@ -1,4 +1,4 @@
-#include "measurement/laboratory/as_stated.hpp"
+#include "measurement/fit/as_stated.hpp"
 
 #include <gsl/gsl_cdf.h>
 
@@ -6,7 +6,7 @@
 
 #include "measurement/fit/least_squares.hpp"
 #include "measurement/fit/slopes.hpp"
-#include "measurement/laboratory/laboratory.hpp"
+#include "measurement/fit/stated_numbers.hpp"
 #include "measurement/levels.hpp"
 
 namespace freestand::measurement {
@@ -16,13 +16,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Such numbers move within three standard deviations to both sides of what is stated, which is half of the cube in which fits move.
-constexpr double deviation = 1 / (2 * fault_deviations), stated = 0.5;
-
 Index count(const AsStated& s) { return static_cast<Index>(s.names.size()); }
 
 double misfit(const Judge& judge, const AsStated& s) {
-  double sum = deviations(s).squaredNorm();
+  double sum = s.weight * deviations(s).squaredNorm();
   for (const double of_test : misfits(judge, all_of(judge), s.model, s.x)) sum += of_test;
   return sum;
 }
@@ -46,7 +43,7 @@ Equations equations(const Bench& bench, const Judge& judge, const AsStated& s, c
     return all;
   });
   Equations sum{with_tolerance(MatrixXd::Zero(q, q), s), VectorXd::Zero(q)};
-  sum.against.tail(count(s)) = -deviations(s);
+  sum.against.tail(count(s)) = -s.weight * deviations(s);
   for (const Values& all : answers) {
     sum.gram += Eigen::Map<const MatrixXd>(all.data(), q, q);
     sum.against += Eigen::Map<const VectorXd>(all.data() + q * q, q);
@@ -60,20 +57,9 @@ AsStated moved(const AsStated& s, const VectorXd& change) {
   for (Index k = 0; k < change.size(); ++k) {
     const auto place = static_cast<std::size_t>(k);
     const Free& free = s.model.free[place];
-    next.x[place] = from_unit(free, to_unit(free, s.x[place]) + change[k] * (k < own ? 1 : deviation));
+    next.x[place] = from_unit(free, to_unit(free, s.x[place]) + change[k] * (k < own ? 1 : deviation_in_cube));
   }
   return next;
-}
-
-// The fit with all that is stated free besides, and as stated yet.
-AsStated beside(const Bench& bench, const ModelFit& fit) {
-  AsStated s{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}};
-  for (const StatedNumber& number : stated_numbers(bench.data().tolerance, fit.model)) {
-    s.x.push_back((fit.model.*number.number).value);
-    s.names.emplace_back(number.name);
-    let_free(s.model, number);
-  }
-  return s;
 }
 
 // The same, at the numbers of a fit in which one of them was free.
@@ -106,7 +92,8 @@ AsStated downhill(const Bench& bench, const Judge& judge, AsStated best, const J
   }
   const VectorXd off = deviations(best);
   for (Index d = 0; d < off.size(); ++d)
-    best.is_off.push_back(off[d] * off[d] > gsl_cdf_chisq_Pinv(1 - chance_level, 1) * variance.tail(off.size())[d]);
+    best.is_off.push_back(off[d] * off[d] >
+                          gsl_cdf_chisq_Pinv(1 - chance_level, 1) * best.weight * variance.tail(off.size())[d]);
   return best;
 }
 
@@ -115,7 +102,7 @@ AsStated downhill(const Bench& bench, const Judge& judge, AsStated best, const J
 MatrixXd slopes_as_stated(const AsStated& s, const Judge& judge, const Test& test, std::size_t i,
                           const Prediction& at) {
   MatrixXd columns = slopes_of(judge, test, i, s.model, s.x, at);
-  columns.rightCols(count(s)) *= deviation;
+  columns.rightCols(count(s)) *= deviation_in_cube;
   return columns;
 }
 
@@ -123,13 +110,13 @@ VectorXd deviations(const AsStated& s) {
   VectorXd off(count(s));
   for (Index d = 0; d < off.size(); ++d) {
     const std::size_t place = s.x.size() - s.names.size() + static_cast<std::size_t>(d);
-    off[d] = (to_unit(s.model.free[place], s.x[place]) - stated) / deviation;
+    off[d] = (to_unit(s.model.free[place], s.x[place]) - stated_in_cube) / deviation_in_cube;
   }
   return off;
 }
 
 MatrixXd with_tolerance(MatrixXd gram, const AsStated& s) {
-  gram.diagonal().tail(count(s)).array() += 1;
+  gram.diagonal().tail(count(s)).array() += s.weight;
   return gram;
 }
 
@@ -160,9 +147,20 @@ std::pair<ModelSpec, Values> moved_alike(const AsStated& s, const ModelFit& fit,
   return {std::move(model), std::move(x)};
 }
 
+AsStated with_stated_numbers(const Bench& bench, const ModelFit& fit) {
+  AsStated s{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}};
+  for (const StatedNumber& number : stated_numbers(bench.data().tolerance, fit.model)) {
+    s.x.push_back((fit.model.*number.number).value);
+    s.names.emplace_back(number.name);
+    let_free(s.model, number);
+  }
+  return s;
+}
+
 AsStated as_stated(const Bench& bench, const Judge& judge, const ModelFit& fit, const Jobs& jobs,
-                   const std::vector<ModelFit>& elsewhere) {
-  const AsStated stated_so = beside(bench, fit);
+                   const std::vector<ModelFit>& elsewhere, double weight) {
+  AsStated stated_so = with_stated_numbers(bench, fit);
+  stated_so.weight = weight;
   AsStated best = downhill(bench, judge, stated_so, jobs);
   for (const ModelFit& other : elsewhere)
     if (AsStated there = downhill(bench, judge, moved_to(stated_so, other), jobs); there.misfit < best.misfit)

@@ -11,19 +11,25 @@
 
 namespace freestand::measurement {
 
-// The numbers of the fit, and behind them those that are stated, where both together are likeliest: G and the squares of the deviations (over
-// their standard deviations) are least. These squares are observations like others, one more and one more number each, so that what is
-// left compares with chance as G alone does. Found downhill from the fit: a deviation by which a long rocking falls out of step is not, and is
-// to be looked for by fits of their own (`elsewhere`: the fit's numbers with one that is stated), from which it is found downhill too.
+// The numbers of the fit, and behind them those that are stated.
 struct AsStated {
   ModelSpec model;
   Values x;
-  std::vector<std::string> names;  // of what is stated: the faults of laboratory.hpp
+  std::vector<std::string> names;  // of what is stated: the faults of stated_numbers.hpp
+  double weight = 1;               // of the squares of the deviations beside G
   double misfit = 0;               // that sum
   std::vector<bool> is_off;        // by more than chance
 };
+// As stated.
+AsStated with_stated_numbers(const Bench&, const ModelFit&);
+
+// Where both together are likeliest: G and the squares of the deviations (over their standard deviations) are least. These squares are
+// observations like others, one more and one more number each, so that what is left compares with chance as G alone does. Where the
+// tests disagree by s noise units rather than one, they weigh s^2. Found downhill from the fit: a deviation by which a long rocking falls out of
+// step is not, and is to be looked for by fits of their own (`elsewhere`: the fit's numbers with one that is stated), from which it is
+// found downhill too.
 AsStated as_stated(const Bench&, const Judge&, const ModelFit&, const Jobs&,
-                   const std::vector<ModelFit>& elsewhere = {});
+                   const std::vector<ModelFit>& elsewhere = {}, double weight = 1);
 
 // "the width is 1.2 % smaller than stated": what is off by the most standard deviations, of what is off by more than chance; empty: nothing is.
 std::string most_off(const AsStated&);

@@ -1,0 +1,136 @@
+#include "measurement/fit/history_misfit.hpp"
+
+#include <algorithm>
+
+#include "base/random.hpp"
+#include "measurement/fit/stated_numbers.hpp"
+
+namespace freestand::measurement {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// The tests tell first by how much friction scatters and by how much they disagree, what is stated being taken as it is stated but for
+// derivatives; with that, where it is likeliest; and from there all once more.
+HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs& jobs)
+    : bench_(bench), fit_(fit), judge_(bench, fit.model, fit.x, jobs, fanned_out) {
+  look_from(with_stated_numbers(bench, fit), jobs);
+  if (!place_.names.empty()) {
+    const double s2 = dispersion_.s * dispersion_.s;
+    const Judge scattered = tau2_ > 0 ? Judge(bench, fit.model, fit.x, jobs, fanned_out, friction_scatter()) : judge_;
+    look_from(as_stated(bench, scattered, fit, jobs, {}, s2), jobs);
+  }
+  reduce();
+}
+
+// G is least in what is stated where it is for the numbers: by Schur's complement.
+void HistoryMisfit::reduce() {
+  const Pull all = sum_of(pulls_, tau2_, dispersion_.s * dispersion_.s);
+  const auto p = static_cast<Index>(fit_.x.size()), q = all.gram.rows() - p;
+  of_deviations_.compute(all.gram.bottomRightCorner(q, q));
+  coupling_ = all.gram.bottomLeftCorner(q, p);
+  against_deviations_ = all.against.tail(q);
+  rates_ = all.gram.topLeftCorner(p, p) - coupling_.transpose() * of_deviations_.solve(coupling_);
+  against_ = all.against.head(p) - coupling_.transpose() * of_deviations_.solve(against_deviations_);
+  for (std::size_t i = 0; i < tests_->count(); ++i) {
+    const MatrixXd slopes = tests_->slopes(i, shifts_[i]);
+    friction_.push_back(slopes.rightCols(1));
+    stated_.push_back(judge_.weighed(i, slopes.middleCols(p, q)));
+    friction_stated_.push_back(pulls_.tests[i].gram.col(p + q).segment(p, q));
+  }
+}
+
+VectorXd HistoryMisfit::from_place(const Values& numbers) const {
+  VectorXd moved(static_cast<Index>(numbers.size()));
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    const Free& free = fit_.model.free[k];
+    moved[static_cast<Index>(k)] = to_unit(free, numbers[k]) - to_unit(free, place_.x[k]);
+  }
+  return moved;
+}
+
+VectorXd HistoryMisfit::step(const MatrixXd& inverse) const { return -from_place(fit_.x) - inverse * against_; }
+
+Values HistoryMisfit::stated_beside(const Values& numbers, std::uint64_t s) const {
+  VectorXd chance(of_deviations_.rows());
+  for (Index k = 0; k < chance.size(); ++k) chance[k] = random::standard_normal(38, s, static_cast<std::uint64_t>(k));
+  const VectorXd change = dispersion_.s * of_deviations_.matrixU().solve(chance) -
+                          of_deviations_.solve(against_deviations_ + coupling_ * from_place(numbers));
+  Values stated;
+  for (Index k = 0; k < change.size(); ++k) {
+    const std::size_t at = numbers.size() + static_cast<std::size_t>(k);
+    const Free& free = place_.model.free[at];
+    stated.push_back(from_unit(free, to_unit(free, place_.x[at]) + change[k]));
+  }
+  return stated;
+}
+
+void HistoryMisfit::look_from(const AsStated& place, const Jobs& jobs) {
+  place_ = place;
+  tests_.emplace(bench_, judge_, place_);
+  shifts_.clear();
+  for (const Values& best :
+       jobs("friction of each test", tests_->count(), [&](std::size_t i) { return Values{tests_->best(i)}; }))
+    shifts_.push_back(best[0]);
+  pulls_ = pulls_of(*tests_, place_, shifts_, jobs);
+  const double tau = measurement::friction_scatter(pulls_);
+  if (tau == 0) {
+    shifts_.assign(tests_->count(), 0);
+    pulls_ = pulls_of(*tests_, place_, shifts_, jobs);
+  }
+  tau2_ = tau * tau;
+  dispersion_ = dispersion_of(pulls_, tau2_);
+}
+
+double HistoryMisfit::operator()(const Values& numbers) const {
+  if (numbers.empty()) return no_fit;
+  const double s2 = dispersion_.s * dispersion_.s;
+  double moved = 0;  // of ln mu
+  for (std::size_t k = 0; k < numbers.size(); ++k)
+    if (is_friction(fit_.model.free[k])) moved = std::log(numbers[k] / place_.x[k]);
+  double G = s2 * deviations(place_).squaredNorm();
+  VectorXd against_stated = s2 * pulls_.stated.against.tail(of_deviations_.rows());
+  for (std::size_t i = 0; i < tests_->count(); ++i) {
+    // With the test's own friction held, and from there the shift that is likeliest, along its direction. What else the numbers do
+    // the test's friction makes up for, by more than its direction holds for: so from there once more.
+    double shift = tau2_ > 0 ? shifts_[i] - moved : 0, of_test = 0;
+    for (int turn = 0; turn < 2; ++turn) {
+      const Prediction at = tests_->at(i, numbers, shift);
+      if (at.failed()) return no_fit;
+      const VectorXd r = judge_.residual(i, at);
+      MatrixXd columns = r;
+      if (tau2_ > 0) {
+        columns.conservativeResize(Eigen::NoChange, 2);
+        columns.col(1) = friction_[i];
+      }
+      const VectorXd against = judge_.against(i, columns, r);
+      of_test = against[0];
+      VectorXd of_stated = stated_[i].transpose() * r;
+      if (tau2_ == 0) {
+        against_stated += of_stated;
+        break;
+      }
+      const double ff = pulls_.tests[i].gram.bottomRightCorner<1, 1>()(0),
+                   fr = against[1] - shift * ff;  // at a shift of 0
+      of_test += shift * shift * ff - 2 * shift * against[1] - tau2_ * fr * fr / (1 + tau2_ * ff);
+      const double likeliest = -tau2_ * fr / (1 + tau2_ * ff);
+      if (turn == 1) against_stated += of_stated + (likeliest - shift) * friction_stated_[i];
+      shift = likeliest;
+    }
+    G += of_test;
+  }
+  return G - against_stated.dot(of_deviations_.solve(against_stated));
+}
+
+bool HistoryMisfit::deviates() const {
+  return std::find(place_.is_off.begin(), place_.is_off.end(), true) != place_.is_off.end();
+}
+
+std::string HistoryMisfit::stated_otherwise() const {
+  double samples = 0;
+  for (const double of_test : judge_.samples()) samples += of_test;
+  return place_.misfit < adequate * adequate * samples ? most_off(place_) : "";
+}
+
+}  // namespace freestand::measurement

@@ -1,0 +1,59 @@
+// How far numbers of a fit are from the measured histories, where all else that may differ is as it is likeliest: the friction of each test,
+// where it scatters, and what the laboratory states, within its tolerances. See posterior.hpp.
+#pragma once
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <optional>
+
+#include "measurement/fit/test_pulls.hpp"
+
+namespace freestand::measurement {
+
+class HistoryMisfit {
+ public:
+  HistoryMisfit(const Bench&, const ModelFit&, const Jobs&);
+  HistoryMisfit(const HistoryMisfit&) = delete;
+  HistoryMisfit& operator=(const HistoryMisfit&) = delete;
+
+  double friction_scatter() const { return std::sqrt(tau2_); }
+  const Dispersion& dispersion() const { return dispersion_; }
+  // By derivatives, in the cube in which fits move: half the second derivatives of G, and the step from the fit to where it is least.
+  const Eigen::MatrixXd& rates() const { return rates_; }
+  // inverse: of the rates.
+  Eigen::VectorXd step(const Eigen::MatrixXd& inverse) const;
+  // G of the fit's numbers; no_fit: they give no history.
+  double operator()(const Values& numbers) const;
+  // Something that is stated is off by more than chance.
+  bool deviates() const;
+  // The same as a sentence, "the width is 1.2 % smaller than stated", of a model that leaves no more than a model may; else empty.
+  std::string stated_otherwise() const;
+
+  // The model in which what is stated is free behind the numbers of the fit; and as it may be where these are so, in the s-th draw.
+  const ModelSpec& in_laboratory() const { return place_.model; }
+  Values stated_beside(const Values& numbers, std::uint64_t s) const;
+
+ private:
+  void look_from(const AsStated&, const Jobs&);
+  void reduce();
+  Eigen::VectorXd from_place(const Values& numbers) const;  // in the cube
+
+  const Bench& bench_;
+  const ModelFit& fit_;
+  Judge judge_;
+  AsStated place_;  // where the derivatives are taken
+  std::optional<OwnShifts> tests_;
+  std::vector<double> shifts_;  // ln of each test's friction over that of the numbers there
+  Pulls pulls_;
+  double tau2_ = 0;
+  Dispersion dispersion_;
+  Eigen::MatrixXd rates_;
+  Eigen::VectorXd against_, against_deviations_;
+  Eigen::MatrixXd coupling_;                   // half the mixed second derivatives, rows of what is stated
+  Eigen::LLT<Eigen::MatrixXd> of_deviations_;  // half the second derivatives of G in what is stated
+  // Of each test: the direction of its friction, C^-1 times those of what is stated, and the products of both.
+  std::vector<Eigen::MatrixXd> friction_, stated_;
+  std::vector<Eigen::VectorXd> friction_stated_;
+};
+
+}  // namespace freestand::measurement
