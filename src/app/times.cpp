@@ -20,9 +20,11 @@ std::string times_text(const study::SweepSummary& sweep, double fit_s, int ranks
              fmt::format("sweep {} ({:.0f} samples/s)", short_duration(sweep.compute_s), sweep.samples_per_s),
              "accuracy check " + short_duration(sweep.accuracy_s), "writing " + short_duration(sweep.write_s)};
   if (fit_s > 0) parts.push_back("fit " + short_duration(fit_s));
-  const std::string passed = sweep.passed_over > 0 ? fmt::format(" ({} passed over)", sweep.passed_over) : "";
-  return fmt::format("{} samples{} in {} on {} {}{}{}", sweep.samples, passed, short_duration(sweep.wall_s + fit_s), ranks,
-                     ranks == 1 ? "rank" : "ranks", parts.empty() ? "" : ": ", fmt::join(parts, ", "));
+  const bool resumed = sweep.computed + sweep.passed_over < sweep.samples;
+  const std::string passed =
+      sweep.passed_over > 0 ? fmt::format(" ({} passed over{})", sweep.passed_over, resumed ? " by this run" : "") : "";
+  return fmt::format("{} samples{} in {} on {} {}{}{}", sweep.samples, passed, short_duration(sweep.wall_s + fit_s),
+                     ranks, ranks == 1 ? "rank" : "ranks", parts.empty() ? "" : ": ", fmt::join(parts, ", "));
 }
 
 std::string warnings_text(const study::FitSummary& fit, const std::string& folder) {

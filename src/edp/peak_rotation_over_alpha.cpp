@@ -6,7 +6,8 @@ const Register peak_rotation_over_alpha{{
     .name = "peak_rotation_over_alpha",
     .unit = "1",
     .symbol = "θ/α",
-    .summary = "largest rotation over the slenderness; 1: the centre of mass is over the corner",
+    .summary = "largest rotation over the slenderness of the block as it is given; 1: its centre of mass is over the "
+               "corner, unless an effect moves either",
     .source = "[KM05 ch. 6]",
     .still = 1e-3,
     .default_capacities = {0.1, 0.25, 0.5, 0.75},

@@ -25,10 +25,10 @@ class Cell {
   std::int64_t n() const { return static_cast<std::int64_t>(table_.col(0).sum()); }
   std::int64_t hits(Eigen::Index c) const { return static_cast<std::int64_t>(table_.col(1 + c).sum()); }
 
-  Interval band(Eigen::Index c, std::size_t records, double confidence) const {
+  Interval band(Eigen::Index c, const MotionGroups& units, double confidence) const {
     std::vector<GroupShare> shares;
     for (Eigen::Index g = 0; g < table_.rows(); ++g) shares.push_back({table_(g, 0), table_(g, 1 + c)});
-    return share_interval(shares, records, confidence);
+    return share_interval(shares, static_cast<std::size_t>(units.record_groups()), confidence, units.designs());
   }
 
  private:
@@ -42,7 +42,6 @@ AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis) 
   const AxisOptions& ax = options.axes[axis];
   const std::size_t bins = tally.layout().bins, cells = ax.edge.size() - 1,
                     capacity = tally.layout().capacity_count[edp];
-  const auto records = static_cast<std::size_t>(tally.groups().record_groups());
   AxisSurface result;
   result.name = ax.name;
   result.unit = ax.unit;
@@ -60,7 +59,7 @@ AxisSurface axis_surface(const Tally& tally, std::size_t edp, std::size_t axis) 
     if (cell.n() < options.minimum_samples) continue;
     for (std::size_t c = 0; c < capacity; ++c) {
       const auto column = static_cast<Eigen::Index>(c);
-      const Interval band = cell.band(column, records, options.confidence);
+      const Interval band = cell.band(column, tally.groups(), options.confidence);
       result.probability[at * capacity + c] = static_cast<double>(cell.hits(column)) / static_cast<double>(cell.n());
       result.lower[at * capacity + c] = band.lower;
       result.upper[at * capacity + c] = band.upper;

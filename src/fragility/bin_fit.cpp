@@ -26,6 +26,7 @@ class Bin {
         bin_(bin),
         histogram_(tally.histogram(edp, bin)),
         records_(static_cast<std::size_t>(tally.groups().record_groups())),
+        designs_(tally.groups().designs()),
         by_group_(sums_by_group(tally, edp, bin)),
         total_(by_group_.colwise().sum()) {
     if (!options_.pilot_slope.empty()) pilot_ = {options_.pilot_slope[edp][bin], std::log(options_.pilot_im[bin])};
@@ -80,7 +81,7 @@ class Bin {
     }
     if (!(n > 0)) return;
     p = hits / n;
-    const Interval interval = share_interval(groups, records_, options_.confidence);
+    const Interval interval = share_interval(groups, records_, options_.confidence, designs_);
     lower = interval.lower;
     upper = interval.upper;
   }
@@ -121,6 +122,7 @@ class Bin {
   std::size_t bin_;
   std::span<const std::int64_t> histogram_;
   std::size_t records_;
+  bool designs_;
   Eigen::MatrixXd by_group_;
   BinSums total_;
   BinLine pilot_;

@@ -21,6 +21,7 @@ class MotionGroups {
 
   int count() const { return record_groups_ + hashed_groups_; }
   int record_groups() const { return record_groups_; }  // groups 0 ... record_groups() - 1 are records, the rest hashed
+  bool designs() const { return scrambles_ > 1; }       // each hashed group is a design by itself
   int records() const { return records_; }              // groups of records that the study has
 
   // motion: index of the motion in the study (ignored where Options::motion_group is empty); sample: its number.

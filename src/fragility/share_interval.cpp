@@ -43,8 +43,9 @@ struct CountedSums {
 // Limits in ln odds.
 class OddsLimits {
  public:
-  OddsLimits(std::span<const GroupShare> records, const CountedSums& sums)
-      : p_(sums.share()), independent_(std::sqrt(p_ * (1 - p_) / sums.n)) {
+  // independent: they reach at least as far as those of independent samples.
+  OddsLimits(std::span<const GroupShare> records, const CountedSums& sums, bool independent = true)
+      : p_(sums.share()), independent_(independent ? std::sqrt(p_ * (1 - p_) / sums.n) : 0) {
     VarianceSum variance;
     // By how much p moves where the record is left out: one that makes most of p hides how far it lies off the others.
     std::vector<double> excess;
@@ -105,9 +106,21 @@ Interval of_records(std::span<const GroupShare> groups, double confidence) {
   return {lower(tail + unused_tail(tail, +1, own_upper, most)), upper(tail + unused_tail(tail, -1, own_lower, least))};
 }
 
+// Of samples that are motions of their own; each group is a design, or says nothing.
+Interval of_samples(std::span<const GroupShare> groups, bool designs, double confidence) {
+  const CountedSums sums(groups);
+  const Interval exact = exact_interval(sums.hits, sums.n, confidence);
+  if (!designs || sums.records < 2 || sums.that_hit() < fewest_records || sums.that_missed() < fewest_records)
+    return exact;
+  const OddsLimits among(groups, sums, false);
+  const double tail = (1 - confidence) / 2;
+  return {std::min(exact.lower, among.lower(tail)), std::max(exact.upper, among.upper(tail))};
+}
+
 }  // namespace
 
-Interval share_interval(std::span<const GroupShare> groups, std::size_t record_groups, double confidence) {
+Interval share_interval(std::span<const GroupShare> groups, std::size_t record_groups, double confidence,
+                        bool designs) {
   const auto records = groups.first(std::min(record_groups, groups.size()));
   GroupShare all{0, 0}, single{0, 0};
   for (std::size_t g = 0; g < groups.size(); ++g) {
@@ -116,10 +129,11 @@ Interval share_interval(std::span<const GroupShare> groups, std::size_t record_g
   }
   const double of_record = all.n - single.n, hits_of_record = all.hits - single.hits;
   if (!(all.n > 0)) return {0, 1};
-  if (!(of_record > 0)) return exact_interval(all.hits, all.n, confidence);
+  const auto others = groups.subspan(records.size());
+  if (!(of_record > 0)) return of_samples(others, designs, confidence);
   const Interval recorded = of_records(records, confidence);
   if (!(single.n > 0)) return recorded;
-  const Interval made = exact_interval(single.hits, single.n, confidence);
+  const Interval made = of_samples(others, designs, confidence);
   const double p = all.hits / all.n;
   const auto limit = [&](double of_records, double of_single) {
     return std::hypot((of_record * of_records - hits_of_record) / all.n, (single.n * of_single - single.hits) / all.n);

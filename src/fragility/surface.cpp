@@ -17,10 +17,12 @@ struct Point {
 };
 
 // Share of the samples above a capacity, its counts in the given column of the groups' table.
-Point empirical_point(const Eigen::MatrixXd& groups, Eigen::Index column, std::size_t records, double confidence) {
+Point empirical_point(const Eigen::MatrixXd& groups, Eigen::Index column, const MotionGroups& units,
+                      double confidence) {
   std::vector<GroupShare> shares;
   for (Eigen::Index g = 0; g < groups.rows(); ++g) shares.push_back({groups(g, 0), groups(g, column)});
-  const Interval band = share_interval(shares, records, confidence);
+  const Interval band =
+      share_interval(shares, static_cast<std::size_t>(units.record_groups()), confidence, units.designs());
   return {groups.col(column).sum() / groups.col(0).sum(), band.lower, band.upper};
 }
 
@@ -90,7 +92,6 @@ void nest(std::span<double> lower, std::span<double> upper) {
 Surface surface(const Tally& tally, std::size_t edp, const Resampling& resampling, std::vector<BinFit>& bins) {
   const Options& options = tally.options();
   const std::vector<double> capacity = capacities(options.edps[edp]);
-  const auto records = static_cast<std::size_t>(tally.groups().record_groups());
   const std::size_t size = bins.size() * capacity.size();
   Surface result;
   result.probability.assign(size, unknown);
@@ -114,7 +115,7 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
     }
     for (std::size_t c = 0; c < capacity.size(); ++c) {
       const Eigen::Index column = BinSums::size + static_cast<Eigen::Index>(c);
-      const Point counted = empirical_point(groups, column, records, options.confidence);
+      const Point counted = empirical_point(groups, column, tally.groups(), options.confidence);
       const Point point =
           use_fit ? fitted_point(parts, bin, capacity[c], options.confidence, options.edps[edp].censored) : counted;
       const double hits = groups.col(column).sum(), n = static_cast<double>(bin.n);

@@ -1,5 +1,6 @@
 // freestand's own csv: a header line of column names, among them time_s, floor_acceleration_mps2 and perhaps
-// floor_vertical_acceleration_mps2. Other columns (as in histories and measured tests) are left unread.
+// floor_vertical_acceleration_mps2. Other columns (as in histories and measured tests) are left unread, but none that is another
+// acceleration of the floor.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,6 +35,16 @@ RawRecord read(const RecordText& text) {
   if (horizontal == names.size())
     text.fail(header, fmt::format("no column {} (the columns are {}): add it", horizontal_name,
                                   shown(trim(text.line(header)), 200)));
+  for (const auto& name : names) {
+    const bool known = name == horizontal_name || name == vertical_name;
+    if (std::count(names.begin(), names.end(), name) > 1 && (known || name == time_name))
+      text.fail(header, fmt::format("column {} stands twice: leave one", name));
+    if (!known && name.rfind("floor_", 0) == 0 && name.find("acceleration") != std::string_view::npos)
+      text.fail(header,
+                fmt::format("column {} would be left unread (those that are read are {} and {}): rename it, write the "
+                            "second horizontal direction into a file of its own (cross_file), or remove the column",
+                            shown(name, 60), horizontal_name, vertical_name));
+  }
   std::vector<double> times;
   std::vector<std::size_t> lines;
   RawRecord record{{}, "m/s2", {RawChannel{"horizontal", false, {}}}};

@@ -128,9 +128,10 @@ Item item_of(const std::string& name, const Peaks& peaks, const Jobs& jobs) {
   add("determination", "r² as 1 − squares left / squares about the mean", fit.determination);
   add("sd_slope", "slope of the standard deviation over IM", fit.line.sd_slope);
   add("bin_slope", "slope through the means of the bins", fit.bin_slope);
-  add("bin_r2", "r² of the bins' means", fit.bin_r2);
+  const bool tells = fit.bins.size() > 2;  // of two points r² is 1 whatever they are
+  if (tells) add("bin_r2", "r² of the bins' means", fit.bin_r2);
   add("bin_sd_slope", "slope through the standard deviations of the bins", fit.bin_sd_slope);
-  add("bin_sd_r2", "r² of the bins' standard deviations", fit.bin_sd_r2);
+  if (tells) add("bin_sd_r2", "r² of the bins' standard deviations", fit.bin_sd_r2);
   add("ks_ours", "Kolmogorov–Smirnov S of the line", fit.ks);
   add("ks_critical_textbook", "5 % value of S by the textbook, nothing fitted", fit.ks_critical_textbook);
   add("ks_critical", "5 % value of S for a line fitted to the same points", fit.ks_critical);

@@ -73,6 +73,15 @@ std::uint64_t feistel(std::uint64_t word, int half_bits, std::uint64_t key) {
   return (left << half_bits) | right;
 }
 
+// Blocks of so many points are taken in any order; within Owen's shuffle alone points 2j and 2j + 1 would stay together in each such
+// dimension, in opposite halves, and what depends on the sign of a product of two of them would be the same of both.
+constexpr int mixed_bits = 6;  // of B points a product then scatters B/(B - 1) times as much as of independent ones
+
+std::uint64_t own_order(std::uint64_t point, std::uint64_t key) {
+  const std::uint64_t shuffled = owen_scramble(point, key), within = (1ULL << mixed_bits) - 1;
+  return (shuffled & ~within) | feistel(shuffled & within, mixed_bits / 2, random::mix(key ^ (shuffled >> mixed_bits)));
+}
+
 std::uint64_t of_replicate(std::uint64_t key, std::uint64_t replicate) {
   return replicate == 0 ? key : random::mix(key + replicate * 0x9e3779b97f4a7c15ULL);
 }
@@ -131,7 +140,7 @@ double Stream::latin_hypercube(std::uint64_t sample) const {
 
 double Stream::sobol(std::uint64_t sample) const {
   const std::uint64_t i = point(sample), r = replicate(sample);
-  const std::uint64_t index = order_key_ == 0 ? i : owen_scramble(i, of_replicate(order_key_, r));
+  const std::uint64_t index = order_key_ == 0 ? i : own_order(i, of_replicate(order_key_, r));
   return random::unit_interval(owen_scramble(sobol_word(std::max(dimension_, 0), index), of_replicate(key_, r)));
 }
 

@@ -34,7 +34,8 @@ struct Plan {
 //                  block of 2^m samples that starts at a multiple of 2^m each dyadic interval of length 2^-m is hit
 //                  once. Known parameter names have fixed dimensions (sobol_dimension). Any other name takes the first
 //                  dimension with its samples in an order of its own (nested uniform shuffle of the index, [Owen 2003;
-//                  Burley 2020]): as even by itself, and paired at random with the others.
+//                  Burley 2020], and within blocks of 64 any order): as even by itself over blocks of 64 and more, and
+//                  paired at random with the others.
 //
 // With Plan::scrambles = R, sample i is point i/R of the design numbered i mod R. The R designs are scrambled (permuted)
 // independently, so that how answers differ between them shows how well the design knows them (A. Owen, J. of

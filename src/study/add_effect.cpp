@@ -127,6 +127,8 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
   write_block(root, *before);
   name_placement_scatter(root, *before);
   if (!model["effects"] || !model["effects"].IsSequence()) model["effects"] = YAML::Node(YAML::NodeType::Sequence);
+  if (entry["name"].as<std::string>() == "static_friction")  // which says what these said
+    for (const char* key : {"mu_s", "static_ratio"}) model["friction"].remove(key);
   model["effects"].push_back(entry);
   model["effects"].SetStyle(YAML::EmitterStyle::Block);
   const auto after = prepare(world, parse_validation(study_text(root), before->validation.file), run, 16);

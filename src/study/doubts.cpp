@@ -212,7 +212,7 @@ std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) 
 // A channel of a motion by itself, as a horizontal one; its name says which.
 FloorMotion channel_of(const FloorMotion& motion, MotionValues FloorMotion::*channel, const char* name) {
   FloorMotion alone;
-  alone.name = name[0] == '\0' ? motion.name : fmt::format("the {} channel of {}", name, motion.name);
+  alone.name = name[0] == '\0' ? motion.name : fmt::format("the {} of {}", name, motion.name);
   alone.knot_s = motion.knot_s;
   alone.degree = motion.degree;
   alone.horizontal_mps2 = motion.*channel;
@@ -222,9 +222,10 @@ FloorMotion channel_of(const FloorMotion& motion, MotionValues FloorMotion::*cha
 // Those that shake the block of this study.
 std::vector<FloorMotion> channels_of(const FloorMotion& motion, const Study& study) {
   std::vector<FloorMotion> channels{channel_of(motion, &FloorMotion::horizontal_mps2, "")};
-  if (!motion.cross_mps2.empty()) channels.push_back(channel_of(motion, &FloorMotion::cross_mps2, "second"));
+  if (!motion.cross_mps2.empty())
+    channels.push_back(channel_of(motion, &FloorMotion::cross_mps2, "second component of the pair"));
   if (!motion.vertical_mps2.empty() && shakes_vertically(study.model))
-    channels.push_back(channel_of(motion, &FloorMotion::vertical_mps2, "vertical"));
+    channels.push_back(channel_of(motion, &FloorMotion::vertical_mps2, "vertical channel"));
   return channels;
 }
 

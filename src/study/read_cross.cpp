@@ -27,14 +27,18 @@ bool MotionSource::in_plane() const {
 }
 
 void check_cross(Section& file, const Study& study, Files look) {
-  if (look == Files::ignore) return;  // a table that is not there does not say whether it holds pairs; it was asked before the sweep
+  if (look == Files::ignore)
+    return;  // a table that is not there does not say whether it holds pairs; it was asked before the sweep
   const bool on_a_line =
       std::any_of(study.motions.begin(), study.motions.end(), [](const auto& source) { return !source.in_plane(); });
+  const bool turned = std::any_of(study.motions.begin(), study.motions.end(),
+                                  [](const auto& source) { return source.turn.has_value(); });
   if (study.model.friction.ratio_across && on_a_line)
     file.problem("friction",
-                 "friction.ratio_across is of sliding in both horizontal directions (motions move the floor along one "
-                 "line): give "
-                 "cross_records, or remove it");
+                 fmt::format("friction.ratio_across is of sliding in both horizontal directions ({}): {}, or remove it",
+                             turned ? "of a pair that rotate_deg turns one component is left"
+                                    : "motions move the floor along one line",
+                             turned ? "remove rotate_deg" : "give cross_records"));
   if (std::none_of(study.motions.begin(), study.motions.end(), [](const auto& source) { return source.in_plane(); }))
     return;
   const auto refuse = [&](const char* key, const std::string& why, const char* cure) {
@@ -46,9 +50,10 @@ void check_cross(Section& file, const Study& study, Files look) {
     const motion::Processing& done = source.processing;
     if (done.baseline || done.band || done.scale)
       refuse("motions", "baseline, band_pass_hz and scales are of one channel",
-             "treat the files with `freestand motion --convert`, or turn each pair by rotate_deg");
+             "treat the files with `freestand motion --convert`, or keep one component of each pair by rotate_deg");
     if (source.building)
-      refuse("building", "its floors move along one line", "turn each pair by rotate_deg, or remove it");
+      refuse("building", "its floors move along one line",
+             "keep one component of each pair by rotate_deg, or remove it");
   }
   const ModelPart& model = study.model;
   if (model.model != Model::slide)

@@ -1,4 +1,4 @@
-// block, friction, model, impact, effects.
+// block, model, impact, chain, start; friction, effects, neighbours and legs have readers of their own.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,24 +13,12 @@ namespace {
 using sampling::number_text;
 using sampling::support;
 
-constexpr Range above_zero = {.lower = 0, .why = "a size must be above zero"};
 constexpr Range slenderness_range = {.lower = 0, .upper = pi / 2, .why = "a slenderness lies between 0 and pi/2"};
 constexpr Range exponent_range = {.lower = 1,
                                   .upper = 100,
                                   .lower_open = false,
                                   .upper_open = false,
                                   .why = "it must lie between 1 and 100; a sharper contact is Coulomb's, model slide"};
-constexpr Range ratio_range = {
-    .lower = 1, .lower_open = false, .why = "static friction is never below kinetic friction"};
-
-void both(Section& section, const std::string& a, const std::string& b, const char* why) {
-  section.problem(b, fmt::format("{} and {} are both given ({}): remove one", section.name(a), b, why));
-}
-
-void missing(Section& section, const std::string& key, const std::string& other) {
-  section.problem(key, fmt::format("{} is missing (the study cannot do without it): add {}", section.name(key), other));
-}
-
 // The centre of mass lies within the block, and no mass lies farther from it than the farthest corner, in any sample. Numbers
 // are drawn independently, so that their ranges are compared.
 void check_mass_distribution(Section& section, const BlockPart& block) {
@@ -45,7 +33,7 @@ void check_mass_distribution(Section& section, const BlockPart& block) {
                     "within the block): narrow the one or the other, by min and max where it is a distribution",
                     number_text(centre.upper), number_text(height.lower)));
   if (block.gyration_radius && block.inertia)
-    both(section, "gyration_radius_m", "inertia_kgm2", "one determines the other");
+    both_given(section, "gyration_radius_m", "inertia_kgm2", "one determines the other");
   if (block.inertia && block.mass.line == 0)
     section.problem("inertia_kgm2",
                     "block.inertia_kgm2 needs the mass (k^2 = I/m): add block.mass_kg, or give gyration_radius_m");
@@ -70,13 +58,13 @@ BlockPart read_block(Section& file) {
     return block;
   }
   Section section(*node, "block", file.line("block"), file.problems());
-  block.width = section.quantity("block", "width_m", above_zero);
-  block.height = section.quantity("block", "height_m", above_zero);
+  block.width = section.quantity("block", "width_m", range::size);
+  block.height = section.quantity("block", "height_m", range::size);
   block.slenderness = section.quantity("block", "slenderness_rad", slenderness_range);
-  block.size = section.quantity("block", "size_m", above_zero);
+  block.size = section.quantity("block", "size_m", range::size);
   block.mass = section.quantity("block", "mass_kg", {.lower = 0, .why = "a mass must be above zero"}, 1);
-  block.centre_height = section.quantity("block", "centre_height_m", above_zero);
-  block.gyration_radius = section.quantity("block", "gyration_radius_m", above_zero);
+  block.centre_height = section.quantity("block", "centre_height_m", range::size);
+  block.gyration_radius = section.quantity("block", "gyration_radius_m", range::size);
   block.inertia = section.quantity("block", "inertia_kgm2", {.lower = 0, .why = "an inertia must be above zero"});
   section.finish();
   if (!node->IsMap()) return block;
@@ -84,15 +72,16 @@ BlockPart read_block(Section& file) {
   const bool sides = section.has("width_m") || section.has("height_m");
   const bool angles = section.has("slenderness_rad") || section.has("size_m");
   if (sides && angles)
-    both(section, section.has("width_m") ? "width_m" : "height_m",
-         section.has("slenderness_rad") ? "slenderness_rad" : "size_m",
-         "the block is given either by its sides or by slenderness and size");
+    both_given(section, section.has("width_m") ? "width_m" : "height_m",
+               section.has("slenderness_rad") ? "slenderness_rad" : "size_m",
+               "the block is given either by its sides or by slenderness and size");
   else if (angles) {
-    if (!section.has("slenderness_rad")) missing(section, "slenderness_rad", "slenderness_rad, the angle atan(W/H)");
-    if (!section.has("size_m")) missing(section, "size_m", "size_m, half the diagonal of the block");
+    if (!section.has("slenderness_rad"))
+      missing_key(section, "slenderness_rad", "slenderness_rad, the angle atan(W/H)");
+    if (!section.has("size_m")) missing_key(section, "size_m", "size_m, half the diagonal of the block");
   } else {
-    if (!section.has("width_m")) missing(section, "width_m", "width_m, or slenderness_rad and size_m");
-    if (!section.has("height_m")) missing(section, "height_m", "height_m");
+    if (!section.has("width_m")) missing_key(section, "width_m", "width_m, or slenderness_rad and size_m");
+    if (!section.has("height_m")) missing_key(section, "height_m", "height_m");
   }
   if (angles)
     for (const char* key : {"centre_height_m", "gyration_radius_m", "inertia_kgm2"})
@@ -102,64 +91,6 @@ BlockPart read_block(Section& file) {
                                          section.name(key)));
   check_mass_distribution(section, block);
   return block;
-}
-
-// mu_s must not fall below mu_k in any sample. They are drawn independently, so their ranges must not overlap.
-void check_static_friction(Section& section, const FrictionPart& friction) {
-  if (!friction.mu_s || !friction.mu_k) return;
-  const double most = support(friction.mu_k->value).upper, least = support(friction.mu_s->value).lower;
-  if (most <= least) return;
-  const bool numbers = is_fixed(friction.mu_k->value) && is_fixed(friction.mu_s->value);
-  section.problem("mu_s",
-                  numbers ? fmt::format("friction.mu_s {} is below friction.mu_k {} (static friction is never below "
-                                        "kinetic friction): raise mu_s",
-                                        number_text(least), number_text(most))
-                          : std::string("friction.mu_s can fall below friction.mu_k (they are drawn independently and "
-                                        "their ranges overlap): use mu_k with static_ratio"));
-}
-
-// A formula of friction stands in the place of mu_k, and static friction is mu_s/mu_k times as much.
-void check_ratio_of_formulas(Section& file, const ModelPart& model) {
-  const auto& [mu, mu_k, mu_s, static_ratio, across, axis] = model.friction;
-  if (!mu_k || !mu_s || support(mu_k->value).lower > 0 || !(support(mu_s->value).upper > 0)) return;
-  for (const EffectPart& effect : model.effects)
-    if (!effect.friction.empty())
-      file.problem("friction", fmt::format("friction.mu_k can be 0 beside mu_s (while the block is stuck, friction is "
-                                           "mu_s/mu_k times what effect {} says): give mu, or a mu_k above 0",
-                                           effect.name));
-}
-
-FrictionPart read_friction(Section& file) {
-  FrictionPart friction;
-  const YAML::Node* node = file.find("friction");
-  if (!node) {
-    file.problem("friction", "friction is missing (the block cannot stand without it): add friction: {mu: ...}");
-    return friction;
-  }
-  Section section(*node, "friction", file.line("friction"), file.problems());
-  friction.mu = section.quantity("friction", "mu", range::not_negative);
-  friction.mu_k = section.quantity("friction", "mu_k", range::not_negative);
-  friction.mu_s = section.quantity("friction", "mu_s", range::not_negative);
-  friction.static_ratio = section.quantity("friction", "static_ratio", ratio_range);
-  friction.ratio_across = section.quantity("friction", "ratio_across", above_zero);
-  friction.axis = section.quantity("friction", "axis_rad", range::any);
-  section.finish();
-  if (!node->IsMap()) return friction;
-
-  if (section.has("mu")) {
-    for (const char* key : {"mu_k", "mu_s", "static_ratio"})
-      if (section.has(key)) both(section, "mu", key, "mu stands for both coefficients");
-  } else if (!section.has("mu_k")) {
-    missing(section, "mu_k", "mu_k, or mu for both coefficients");
-  } else if (section.has("mu_s") && section.has("static_ratio")) {
-    both(section, "mu_s", "static_ratio", "one determines the other");
-  }
-  if (section.has("axis_rad") && !section.has("ratio_across"))
-    section.problem(
-        "axis_rad",
-        "friction.axis_rad turns what is the same in all directions: add friction.ratio_across, or remove it");
-  check_static_friction(section, friction);
-  return friction;
 }
 
 Model read_model_name(Section& file) {
@@ -186,7 +117,7 @@ std::optional<BoucWenPart> read_bouc_wen(Section& file, Model model) {
   }
   Section section(*node, "bouc_wen", file.line("bouc_wen"), file.problems());
   BoucWenPart part;
-  part.yield_displacement = section.quantity("bouc_wen", "yield_displacement_m", above_zero, 1);
+  part.yield_displacement = section.quantity("bouc_wen", "yield_displacement_m", range::size, 1);
   part.exponent = section.quantity("bouc_wen", "exponent", exponent_range, 1);
   part.gamma = section.quantity("bouc_wen", "gamma", range::positive, 0.5);
   part.beta = section.quantity("bouc_wen", "beta", range::any, 0.5);
@@ -197,7 +128,7 @@ std::optional<BoucWenPart> read_bouc_wen(Section& file, Model model) {
                  "bouc_wen is given, and model is another (its contact would not be used): choose model: bouc_wen, or "
                  "remove it");
   for (const char* key : {"yield_displacement_m", "exponent"})
-    if (!section.has(key)) missing(section, key, std::string(key) + ", of the contact");
+    if (!section.has(key)) missing_key(section, key, std::string(key) + ", of the contact");
   check_shape(section, part);
   return part;
 }
@@ -234,7 +165,7 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   chain.slack = section.quantity("chain", "slack_m", range::not_negative, 0);
   chain.stiffness = section.quantity("chain", "stiffness_npm", range::positive, 0);
   chain.strength = section.quantity("chain", "strength_n", range::positive, 0);
-  chain.height = section.quantity("chain", "height_m", above_zero);
+  chain.height = section.quantity("chain", "height_m", range::size);
   chain.number = section.quantity(
       "chain", "number", {.lower = 1, .lower_open = false, .why = "fewer chains than one are none: remove chain"});
   chain.plan_angle = section.quantity("chain", "plan_angle_rad",
@@ -259,7 +190,7 @@ std::optional<ChainPart> read_chain(Section& file, const ModelPart& model) {
   section.finish();
   if (!node->IsMap()) return {};
   for (const char* key : {"stiffness_npm", "strength_n"})
-    if (!section.has(key)) missing(section, key, std::string(key) + ", of the chain and its connection");
+    if (!section.has(key)) missing_key(section, key, std::string(key) + ", of the chain and its connection");
   return chain;
 }
 
@@ -335,7 +266,7 @@ std::optional<Quantity> read_discrepancy(Section& file) {
   const YAML::Node* node = file.find("discrepancy");
   if (!node) return {};
   Section section(*node, "discrepancy", file.line("discrepancy"), file.problems());
-  auto slip = section.quantity("discrepancy", "slip", above_zero);
+  auto slip = section.quantity("discrepancy", "slip", range::size);
   section.finish();
   return slip;
 }
@@ -372,7 +303,7 @@ ModelPart read_model(Section& file) {
       file.problem("impact",
                    "effect impact_loss does not go with impact law coulomb (its impulse follows from friction alone): "
                    "remove the effect, or use housner");
-  check_ratio_of_formulas(file, model);
+  check_friction(file, model);
   model.slip_discrepancy = read_discrepancy(file);
   model.chain = read_chain(file, model);
   model.start = read_start(file, model);
@@ -382,6 +313,14 @@ ModelPart read_model(Section& file) {
   if (const std::string text = no_room_for(model.effects, model.chain);
       model.chain && !text.empty() && no_room_for(model.effects, {}).empty())
     file.problem("chain", text);
+  if (model.chain && model.chain->height && model.block.height) {
+    const double highest = support(model.chain->height->value).upper, top = support(model.block.height->value).lower;
+    if (highest > top)
+      file.problem("chain",
+                   fmt::format("chain.height_m is up to {:g}, and the block as low as {:g} m (a chain holds it nowhere "
+                               "above that): lower it, or remove it to hold the block at its top",
+                               highest, top));
+  }
   if (model.chain && model.block.mass.line == 0)
     file.problem("chain",
                  "chain holds a block whose mass is not given (its stiffness and strength are forces): add "

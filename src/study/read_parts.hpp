@@ -9,6 +9,10 @@ namespace freestand::study {
 // block, friction, model, impact, effects: the keys that studies and cases share.
 ModelPart read_model(Section& file);
 
+FrictionPart read_friction(Section& file);
+// What does not go with the friction of the model, once effects are read.
+void check_friction(Section& file, const ModelPart&);
+
 std::vector<EffectPart> read_effects(Section& file, Model model);
 
 // The block beside this one, where there is one; problems where something does not go with it.

@@ -5,6 +5,7 @@
 
 #include "base/units.hpp"
 #include "dynamics/chain.hpp"
+#include "dynamics/laws.hpp"
 #include "intensity/intensity.hpp"
 #include "motion/pulse.hpp"
 #include "motion/summary.hpp"
@@ -330,8 +331,9 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   parts.shake(sample, out);
 
   const Block& block = out.specimen.block;
-  const double derived[] = {block.base_m(),  block.full_height_m(),      block.alpha_rad(),         block.size_m(),
-                            block.p_radps(), out.specimen.friction.mu_k, out.specimen.friction.mu_s};
+  const Friction friction = dynamics::set_up(out.specimen, out.shaking).specimen.friction;  // as effects make it
+  const double derived[] = {block.base_m(),  block.full_height_m(), block.alpha_rad(), block.size_m(),
+                            block.p_radps(), friction.mu_k,         friction.mu_s};
   for (std::size_t i = 0; i < parts.derived_wanted.size(); ++i)
     if (parts.derived_wanted[i]) out.draws.push_back(derived[i]);
   for (const double x : {static_cast<double>(out.motion), out.shaking.scale, out.pta_g, out.pulse_period_s})

@@ -250,4 +250,14 @@ std::string Section::unknown_key(const std::string& whole) const {
   return fmt::format("unknown key {}{} (nothing reads it): remove it, or use one of {}", key, where, joined(known_));
 }
 
+void both_given(Section& section, const std::string& one, const std::string& other, const char* why) {
+  section.problem(
+      other, fmt::format("{} and {} are both given ({}): remove one", section.name(one), section.name(other), why));
+}
+
+void missing_key(Section& section, const std::string& key, const std::string& to_add) {
+  section.problem(key,
+                  fmt::format("{} is missing (the study cannot do without it): add {}", section.name(key), to_add));
+}
+
 }  // namespace freestand::study

@@ -26,6 +26,7 @@ struct Range {
 namespace range {
 inline constexpr Range any = {};
 inline constexpr Range positive = {.lower = 0, .why = "it must be above zero"};
+inline constexpr Range size = {.lower = 0, .why = "a size must be above zero"};
 inline constexpr Range not_negative = {.lower = 0, .lower_open = false, .why = "it must not be negative"};
 inline constexpr Range leaning = {.lower = -pi / 2, .upper = pi / 2, .why = "a block that leans further has fallen"};
 inline constexpr Range fraction = {
@@ -100,5 +101,9 @@ class Section {
   std::vector<Item> items_;
   std::vector<std::string> known_;
 };
+
+// Two keys of which one is enough; a key that a study cannot do without.
+void both_given(Section&, const std::string& one, const std::string& other, const char* why);
+void missing_key(Section&, const std::string& key, const std::string& to_add);
 
 }  // namespace freestand::study

@@ -36,12 +36,14 @@ std::string wanted_text(const UntilPart& until, const std::string& half_width) {
 }
 
 // What would help: more samples, or only more records.
-std::string helps(const Study& study, const fragility::Outlook& outlook) {
+std::string helps(const Study& study, const fragility::Outlook& outlook, const Drawn& drawn) {
   if (std::isinf(outlook.samples))
     return fmt::format(
         "it would stay at +-{:.2g} however many samples are made of these records: take more records, or wider bins",
         outlook.stays);
-  const std::string needed = fmt::format("some {:.2g} samples are needed", outlook.samples);
+  // Of a bin that was passed over no more is known than that its samples are of some of those drawn.
+  const std::string needed =
+      fmt::format("{}some {:.2g} samples are needed", drawn.alike < drawn.samples ? "up to " : "", outlook.samples);
   if (outlook.samples <= static_cast<double>(study.until->at_most)) return needed;
   return needed + fmt::format(": raise at_most from {}, or take wider bins", study.until->at_most);
 }
@@ -56,8 +58,8 @@ std::string empty_told(const fragility::HalfWidth& width, const Drawn& drawn) {
 }
 
 std::string samples_told(const fragility::Result& result, const Drawn& drawn) {
-  if (drawn.samples == drawn.alike) return fmt::format("{} samples", result.samples);
-  return fmt::format("{} samples, {} of them integrated", drawn.samples, result.samples);
+  if (drawn.samples == result.samples) return fmt::format("{} samples", result.samples);
+  return fmt::format("{} samples, {} of them counted", drawn.samples, result.samples);
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ std::string round_told(const Study& study, const fragility::Result& result, cons
                   at_once(study, reached), farthest_told(study, reached), wanted_text(*study.until, "+-{:.3f}"));
   if (const std::string empty = empty_told(reached, drawn); !empty.empty()) text += "; " + empty;
   if (reached.times_wanted <= 1) return text;
-  return text + "; " + helps(study, fragility::outlook(result, wanted(study, drawn)));
+  return text + "; " + helps(study, fragility::outlook(result, wanted(study, drawn)), drawn);
 }
 
 std::string not_reached(const Study& study, const fragility::Result& result, const Drawn& drawn) {
@@ -94,7 +96,7 @@ std::string not_reached(const Study& study, const fragility::Result& result, con
                      : std::isinf(outlook.samples) ? ", where more would hardly help,"
                                                    : "",
                      reached.farthest, reached.edp.empty() ? "" : fmt::format(", {} the least", place_of(reached)),
-                     helps(study, outlook));
+                     helps(study, outlook, drawn));
 }
 
 std::string passed_over_told(const Drawn& drawn) {

@@ -168,6 +168,17 @@ TEST_F(Record, FloorCsvReadsBothChannels) {
   EXPECT_TRUE(read_record(write("h.csv", "time_s,floor_acceleration_mps2\r\n0,1\r\n1,2\r\n")).vertical_mps2.empty());
 }
 
+// A column that says that it is the floor's acceleration is read, or refused.
+TEST_F(Record, FloorCsvLeavesNoAccelerationOfTheFloorUnread) {
+  for (const char* name : {"floor_cross_acceleration_mps2", "floor_vertical_acceleration_g"})
+    expect_data_error(write("f.csv", std::string("time_s,floor_acceleration_mps2,") + name + "\n0,1,1\n1,2,2\n"), 1,
+                      "would be left unread");
+  expect_data_error(write("f.csv", "time_s,floor_acceleration_mps2,floor_acceleration_mps2\n0,1,1\n1,2,2\n"), 1,
+                    "column floor_acceleration_mps2 stands twice");
+  EXPECT_EQ(
+      read_record(write("f.csv", "time_s,floor_acceleration_mps2,floor_displacement_m\n0,1,1\n1,2,2\n")).knot_s[1], 1);
+}
+
 TEST_F(Record, FloorCsvFindsItsColumnsByNameAmongOthers) {
   const FloorMotion motion = read_record(
       write("test.csv", "\xEF\xBB\xBF# a comment\nslip_m, time_s ,floor_acceleration_mps2\n9,2.0,-1.5\n9,2.1,2.5\n"));

@@ -72,6 +72,19 @@ TEST_F(OwnPeaks, OtherUnitsAndNames) {
   EXPECT_EQ(found[0].second.sheets.size(), 5u);
 }
 
+// A line through two bins leaves nothing over that r2 could tell of.
+TEST_F(OwnPeaks, OfTwoBinsNoCorrelationIsTold) {
+  const auto tells = [&](int tests) {
+    const auto found = own_peaks(write(made(tests)), run_here);
+    const auto& numbers = found[0].second.numbers;
+    return std::count_if(numbers.begin(), numbers.end(), [](const auto& n) {
+      return n.id.find(".bin_") != std::string::npos && n.id.ends_with("_r2");
+    });
+  };
+  EXPECT_EQ(tells(15), 0);
+  EXPECT_EQ(tells(30), 2);
+}
+
 TEST_F(OwnPeaks, BadInputIsToldWithItsLine) {
   EXPECT_NE(error(made(20, "m,0.1,0.2,0.5,3", 4)).find(":6: IM = PTA/(mu g) - 1 is -0.5"), std::string::npos);
   EXPECT_NE(error(made(20, "m,0.5,0.2,0.5,0", 4)).find(":6: peak_slip_mm is 0 (it is above 0)"), std::string::npos);

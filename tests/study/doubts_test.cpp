@@ -142,12 +142,14 @@ TEST(Doubts, OtherChannelsOfRecords) {
   EXPECT_THAT(said(shaken, gravity, {}),
               ElementsAre(HasSubstr("the vertical channel of some.csv has an offset of 9.")));
   EXPECT_THAT(said("", gravity, {}), IsEmpty());
-  EXPECT_THAT(said("", {}, gravity), ElementsAre(HasSubstr("the second channel of some.csv has an offset of 9.")));
+  EXPECT_THAT(said("", {}, gravity),
+              ElementsAre(HasSubstr("the second component of the pair of some.csv has an offset of 9.")));
   EXPECT_THAT(said(shaken, nothing, {}),
               ElementsAre("the vertical channel of some.csv is zero throughout: is it the right one?"));
   EXPECT_THAT(said(shaken, {}, {}), ElementsAre(HasSubstr("no vertical channel is there of some.csv")));
-  EXPECT_THAT(said("", {}, strong),
-              ElementsAre(HasSubstr("the second channel of some.csv is 20 times as strong as the first one")));
+  EXPECT_THAT(
+      said("", {}, strong),
+      ElementsAre(HasSubstr("the second component of the pair of some.csv is 20 times as strong as the first one")));
 }
 
 // A record turned round is as likely a motion, and another one for what stands on one side.

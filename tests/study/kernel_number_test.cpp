@@ -31,11 +31,15 @@ std::vector<std::string> studies() {
       texts.push_back(block + friction + fmt::format("model: {}\n", model) + motions);
     texts.push_back(block + friction + "impact: {law: coulomb}\n" + motions);
     texts.push_back(block + friction + "chain: {slack_m: 0.02, stiffness_npm: 4e5, strength_n: 2736}\n" + motions);
+    texts.push_back(block +
+                    "friction: {mu: {uniform: [0.15, 0.5]}}\n"
+                    "effects: [{name: static_friction, ratio: {uniform: [1.1, 1.5]}}]\n" +
+                    motions);
     for (const char* effect :
-         {"static_friction, ratio: {uniform: [1.1, 1.5]}", "rate_weakening, drop: 0.4, speed_mps: 0.1",
-          "rate_strengthening, rise: 0.4, speed_mps: 0.1", "friction_wear, ratio: 0.6, path_m: 0.1",
-          "directional_friction, asymmetry: 0.2", "pressure_friction, exponent: 0.9", "viscous_drag, rate_per_s: 0.5",
-          "floor_tilt, angle_rad: 0.01", "flexible_legs, frequency_hz: 8, damping: 0.05",
+         {"rate_weakening, drop: 0.4, speed_mps: 0.1", "rate_strengthening, rise: 0.4, speed_mps: 0.1",
+          "friction_wear, ratio: 0.6, path_m: 0.1", "directional_friction, asymmetry: 0.2",
+          "pressure_friction, exponent: 0.9", "viscous_drag, rate_per_s: 0.5", "floor_tilt, angle_rad: 0.01",
+          "flexible_legs, frequency_hz: 8, damping: 0.05",
           "slack_tether, slack_m: 0.03, frequency_hz: 5, rate_per_s: 2", "centering_spring, frequency_hz: 0.8",
           "wall_impact, gap_m: 0.05, restitution: 0.4",
           "moving_contents, mass_ratio: 0.2, frequency_hz: 2, damping: 0.05", "impact_loss, factor: 0.9",

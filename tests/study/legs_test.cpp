@@ -84,8 +84,10 @@ TEST(StudyChain, ItsAngleToTheFloorComesToTheSpecimen) {
 }
 
 TEST(StudyFriction, ThatDiffersBetweenDirectionsNeedsThemBoth) {
-  EXPECT_THAT(problems("model: slide\n" + block + "friction: {mu: 0.3, ratio_across: 0.7}\n" + samples + motions),
-              HasSubstr("friction.ratio_across is of sliding in both horizontal directions"));
+  EXPECT_THAT(
+      problems("model: slide\n" + block + "friction: {mu: 0.3, ratio_across: 0.7}\n" + samples + motions),
+      HasSubstr(
+          "friction.ratio_across is of sliding in both horizontal directions (motions move the floor along one line)"));
   EXPECT_THAT(problems("model: slide\n" + block + "friction: {mu: 0.3, axis_rad: 0.7}\n" + samples + motions),
               HasSubstr("add friction.ratio_across"));
 }

@@ -98,6 +98,14 @@ TEST(Realiser, ColumnsHaveEveryQuantityAndWhatFollowsFromItOnce) {
   EXPECT_EQ(Realiser::column_of("motion.period_s"), "pulse_period_s");
 }
 
+TEST(Realiser, StaticFrictionIsWrittenAsEffectsMakeIt) {
+  const std::string rest = motions + samples + fragility;
+  const Realiser realise =
+      realiser(block + "friction: {mu: 0.2}\neffects: [{name: static_friction, ratio: 1.5}]\n" + rest);
+  EXPECT_DOUBLE_EQ(draw(realise, 0, "friction_mu_s"), 1.5 * 0.2);
+  EXPECT_DOUBLE_EQ(draw(realise, 0, "friction_mu_k"), 0.2);
+}
+
 // An effect, another distribution or a second source of motions changes no draw of the other numbers.
 TEST(Realiser, OneMoreParameterChangesNoEarlierDraw) {
   const std::string mu = "friction: {mu_k: {lognormal: {median: 0.2, dispersion: 0.3}}";
