@@ -11,8 +11,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// The tests tell first by how much friction scatters and by how much they disagree, what is stated being taken as it is stated but for
-// derivatives; with that, where it is likeliest; and from there all once more.
+// The tests tell first by how much friction scatters and by how much they disagree, all being as it is stated; with that, where what is
+// stated is likeliest; and there all once more.
 HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs& jobs)
     : bench_(bench), fit_(fit), judge_(bench, fit.model, fit.x, jobs, fanned_out) {
   look_from(with_stated_numbers(bench, fit), jobs);
@@ -24,9 +24,21 @@ HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs
   reduce();
 }
 
+namespace {
+
+// s^2 d^T d, of deviations in the cube in which fits move.
+void add_deviations(const AsStated& place, double s2, Pull& sum) {
+  const VectorXd off = deviations(place);
+  sum.against.tail(off.size()) += s2 / deviation_in_cube * off;
+  sum.gram.diagonal().tail(off.size()).array() += s2 / (deviation_in_cube * deviation_in_cube);
+}
+
+}  // namespace
+
 // G is least in what is stated where it is for the numbers: by Schur's complement.
 void HistoryMisfit::reduce() {
-  const Pull all = sum_of(pulls_, tau2_, dispersion_.s * dispersion_.s);
+  Pull all = sum_of(pulls_, tau2_);
+  add_deviations(place_, dispersion_.s * dispersion_.s, all);
   const auto p = static_cast<Index>(fit_.x.size()), q = all.gram.rows() - p;
   of_deviations_.compute(all.gram.bottomRightCorner(q, q));
   coupling_ = all.gram.bottomLeftCorner(q, p);
@@ -37,7 +49,7 @@ void HistoryMisfit::reduce() {
     const MatrixXd slopes = tests_->slopes(i, shifts_[i]);
     friction_.push_back(slopes.rightCols(1));
     stated_.push_back(judge_.weighed(i, slopes.middleCols(p, q)));
-    friction_stated_.push_back(pulls_.tests[i].gram.col(p + q).segment(p, q));
+    friction_stated_.push_back(pulls_[i].gram.col(p + q).segment(p, q));
   }
 }
 
@@ -73,14 +85,15 @@ void HistoryMisfit::look_from(const AsStated& place, const Jobs& jobs) {
   for (const Values& best :
        jobs("friction of each test", tests_->count(), [&](std::size_t i) { return Values{tests_->best(i)}; }))
     shifts_.push_back(best[0]);
-  pulls_ = pulls_of(*tests_, place_, shifts_, jobs);
-  const double tau = measurement::friction_scatter(pulls_);
+  pulls_ = pulls_of(*tests_, shifts_, jobs);
+  const auto own = [&] { return of_first(pulls_, static_cast<Index>(fit_.x.size())); };
+  const double tau = measurement::friction_scatter(own());
   if (tau == 0) {
     shifts_.assign(tests_->count(), 0);
-    pulls_ = pulls_of(*tests_, place_, shifts_, jobs);
+    pulls_ = pulls_of(*tests_, shifts_, jobs);
   }
   tau2_ = tau * tau;
-  dispersion_ = dispersion_of(pulls_, tau2_);
+  dispersion_ = dispersion_of(own(), tau2_);
 }
 
 double HistoryMisfit::operator()(const Values& numbers) const {
@@ -90,7 +103,7 @@ double HistoryMisfit::operator()(const Values& numbers) const {
   for (std::size_t k = 0; k < numbers.size(); ++k)
     if (is_friction(fit_.model.free[k])) moved = std::log(numbers[k] / place_.x[k]);
   double G = s2 * deviations(place_).squaredNorm();
-  VectorXd against_stated = s2 * pulls_.stated.against.tail(of_deviations_.rows());
+  VectorXd against_stated = s2 / deviation_in_cube * deviations(place_);
   for (std::size_t i = 0; i < tests_->count(); ++i) {
     // With the test's own friction held, and from there the shift that is likeliest, along its direction. What else the numbers do
     // the test's friction makes up for, by more than its direction holds for: so from there once more.
@@ -111,7 +124,7 @@ double HistoryMisfit::operator()(const Values& numbers) const {
         against_stated += of_stated;
         break;
       }
-      const double ff = pulls_.tests[i].gram.bottomRightCorner<1, 1>()(0),
+      const double ff = pulls_[i].gram.bottomRightCorner<1, 1>()(0),
                    fr = against[1] - shift * ff;  // at a shift of 0
       of_test += shift * shift * ff - 2 * shift * against[1] - tau2_ * fr * fr / (1 + tau2_ * ff);
       const double likeliest = -tau2_ * fr / (1 + tau2_ * ff);

@@ -44,7 +44,7 @@ class HistoryMisfit {
   AsStated place_;  // where the derivatives are taken
   std::optional<OwnShifts> tests_;
   std::vector<double> shifts_;  // ln of each test's friction over that of the numbers there
-  Pulls pulls_;
+  std::vector<Pull> pulls_;
   double tau2_ = 0;
   Dispersion dispersion_;
   Eigen::MatrixXd rates_;

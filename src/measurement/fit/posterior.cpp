@@ -27,7 +27,7 @@ void leave_the_mean(const ModelFit& fit, Posterior& out) {
   std::sort(out.of_mean.begin(), out.of_mean.end());
   out.draws = out.of_mean;
   const int placed = placement_number(fit.model);
-  const double freedom = std::max(1.0, out.freedom_a_number);
+  const double freedom = std::max(1.0, out.freedom / std::max<double>(static_cast<double>(fit.x.size()), 1));
   const auto student = [&](double z) { return gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(z), freedom); };
   for (std::size_t s = 0; s < out.draws.size(); ++s) {
     Values& x = out.draws[s];
@@ -48,7 +48,6 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
   out.friction_scatter = misfit.friction_scatter();
   out.dispersion = found.s;
   out.freedom = found.freedom;
-  out.freedom_a_number = found.numbers > 0 ? found.freedom / found.numbers : 0;
   out.stated_otherwise = misfit.stated_otherwise();
   const Misfits misfits = [&](const std::vector<Values>& points) {
     const auto answers =

@@ -5,7 +5,7 @@
 //
 //   s^2 = sum g_i^T H^-1 g_i / trace V,   nu = (trace V)^2 / trace V^2,   V_ij = d_ij K_i - K_i K_j,  K_i = H^-1/2 H_i H^-1/2
 //
-// (J over all numbers, those that the laboratory states among them; V is their covariance where s = 1; nu, after Satterthwaite, is p (n - 1) of n tests that say equally much of p numbers). Then
+// (V is their covariance where s = 1; nu, after Satterthwaite, is p (n - 1) of n tests that say equally much of p numbers). Then
 // the numbers have Student's density, flat before in the unit cube in which fits move (to_unit: logarithms where they span much):
 //
 //   p(x) ~ (1 + (G(x) - G(fit)) / (nu s^2))^-(nu + p)/2
@@ -46,7 +46,6 @@ struct Posterior {
   std::vector<Values> stated = {};
   double dispersion = 1;        // s
   double freedom = 0;           // nu; 0: one test alone, where s = 1 is taken
-  double freedom_a_number = 0;  // nu over how many numbers the tests speak of: n - 1 of n tests that say equally much
   double friction_scatter = 0;  // tau
   // Peaks: ln(measured/model) of another test's peak slip beside the draws: its mean and standard deviation; 0: not known.
   double slip_bias_ln = 0, slip_scatter_ln = 0;

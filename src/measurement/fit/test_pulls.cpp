@@ -5,9 +5,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "measurement/fit/slopes.hpp"
-#include "measurement/fit/stated_numbers.hpp"
 
 namespace freestand::measurement {
 
@@ -90,37 +90,36 @@ double OwnShifts::best(std::size_t i) const {
   return shift;
 }
 
-namespace {
-
-Pull known_beforehand(const AsStated& s) {
-  const auto p = static_cast<Index>(s.x.size());
-  Pull stated{MatrixXd::Zero(p, p), VectorXd::Zero(p)};
-  const VectorXd off = deviations(s);
-  stated.against.tail(off.size()) = off / deviation_in_cube;
-  stated.gram.diagonal().tail(off.size()).array() = 1 / (deviation_in_cube * deviation_in_cube);
-  return stated;
-}
-
-}  // namespace
-
-Pulls pulls_of(const OwnShifts& own, const AsStated& place, const std::vector<double>& shifts, const Jobs& jobs) {
+std::vector<Pull> pulls_of(const OwnShifts& own, const std::vector<double>& shifts, const Jobs& jobs) {
   const auto answers = jobs("what the tests say of the numbers", own.count(), [&](std::size_t i) {
     const Pull pull = own.pull(i, shifts[i]);
     Values all(pull.gram.data(), pull.gram.data() + pull.gram.size());
     all.insert(all.end(), pull.against.begin(), pull.against.end());
     return all;
   });
-  Pulls pulls{{}, known_beforehand(place)};
-  const Index q = pulls.stated.gram.rows() + 1;
-  for (const Values& all : answers)
-    pulls.tests.push_back(
-        {Eigen::Map<const MatrixXd>(all.data(), q, q), Eigen::Map<const VectorXd>(all.data() + q * q, q)});
+  std::vector<Pull> pulls;
+  for (const Values& all : answers) {
+    const auto q = static_cast<Index>(std::lround(std::sqrt(all.size() + 0.25) - 0.5));  // q^2 + q numbers
+    pulls.push_back({Eigen::Map<const MatrixXd>(all.data(), q, q), Eigen::Map<const VectorXd>(all.data() + q * q, q)});
+  }
   return pulls;
 }
 
-Pull sum_of(const Pulls& pulls, double tau2, double weight) {
-  Pull sum{weight * pulls.stated.gram, weight * pulls.stated.against};
-  for (const Pull& test : pulls.tests) {
+std::vector<Pull> of_first(const std::vector<Pull>& pulls, Index count) {
+  std::vector<Pull> first;
+  for (const Pull& test : pulls) {
+    std::vector<Index> kept(static_cast<std::size_t>(count));
+    std::iota(kept.begin(), kept.end(), Index{0});
+    kept.push_back(test.gram.rows() - 1);  // the friction of the test
+    first.push_back({test.gram(kept, kept), test.against(kept)});
+  }
+  return first;
+}
+
+Pull sum_of(const std::vector<Pull>& pulls, double tau2) {
+  const Index p = pulls.front().gram.rows() - 1;
+  Pull sum{MatrixXd::Zero(p, p), VectorXd::Zero(p)};
+  for (const Pull& test : pulls) {
     const Pull part = allowing(test, tau2);
     sum.gram += part.gram;
     sum.against += part.against;
@@ -131,11 +130,11 @@ Pull sum_of(const Pulls& pulls, double tau2, double weight) {
 namespace {
 
 // Restricted likelihood of tau, -2 ln.
-double unlikely(const Pulls& pulls, double tau) {
+double unlikely(const std::vector<Pull>& pulls, double tau) {
   const double tau2 = tau * tau;
   const Pull sum = sum_of(pulls, tau2);
   double value = 0;
-  for (const Pull& test : pulls.tests) {
+  for (const Pull& test : pulls) {
     const Index p = test.gram.rows() - 1;
     const double more = 1 + tau2 * test.gram(p, p);
     value += std::log(more) - tau2 * test.against[p] * test.against[p] / more;
@@ -147,7 +146,7 @@ double unlikely(const Pulls& pulls, double tau) {
 
 }  // namespace
 
-double friction_scatter(const Pulls& pulls) {
+double friction_scatter(const std::vector<Pull>& pulls) {
   constexpr double least = 1e-4, most = 0.5, factor = 1.05;  // friction is given to no more than that
   double best = 0, value = unlikely(pulls, 0);
   const double without = value;
@@ -157,21 +156,20 @@ double friction_scatter(const Pulls& pulls) {
   return gsl_cdf_chisq_Q(std::max(without - value, 0.0), 1) / 2 < 0.05 ? best : 0;
 }
 
-Dispersion dispersion_of(const Pulls& pulls, double tau2) {
-  const Pull sum = sum_of(pulls, tau2, 0);
+Dispersion dispersion_of(const std::vector<Pull>& pulls, double tau2) {
+  const Pull sum = sum_of(pulls, tau2);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.gram);
   const VectorXd rates = solved.eigenvalues().cwiseMax(1e-12 * solved.eigenvalues().maxCoeff());
   const MatrixXd root = solved.eigenvectors() * rates.cwiseSqrt().cwiseInverse().asDiagonal();
   std::vector<MatrixXd> K;
   double square = 0;
   const VectorXd at_best = root * (root.transpose() * sum.against);
-  for (const Pull& test : pulls.tests) {
+  for (const Pull& test : pulls) {
     const Pull part = allowing(test, tau2);
     K.push_back(root.transpose() * part.gram * root);
     square += (root.transpose() * (part.against - part.gram * at_best)).squaredNorm();
   }
-  double trace = 0, trace2 = 0, numbers = 0;
-  for (const MatrixXd& of_test : K) numbers += of_test.trace();
+  double trace = 0, trace2 = 0;
   for (std::size_t i = 0; i < K.size(); ++i)
     for (std::size_t j = 0; j < K.size(); ++j) {
       const MatrixXd V = (i == j ? K[i] : MatrixXd::Zero(K[i].rows(), K[i].cols())) - K[i] * K[j];
@@ -179,7 +177,7 @@ Dispersion dispersion_of(const Pulls& pulls, double tau2) {
       trace2 += V.squaredNorm();
     }
   if (!(trace > 1e-6)) return {};  // one test says it all
-  return {std::sqrt(square / trace), trace * trace / trace2, numbers};
+  return {std::sqrt(square / trace), trace * trace / trace2};
 }
 
 }  // namespace freestand::measurement

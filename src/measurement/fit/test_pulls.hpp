@@ -40,26 +40,21 @@ class OwnShifts {
   std::vector<std::size_t> tests_;
 };
 
-// Of all tests; and what is known beforehand, in the numbers alone: deviations of what is stated, 0 +- 1.
-struct Pulls {
-  std::vector<Pull> tests;
-  Pull stated;
-};
-Pulls pulls_of(const OwnShifts&, const AsStated&, const std::vector<double>& shifts, const Jobs&);
+std::vector<Pull> pulls_of(const OwnShifts&, const std::vector<double>& shifts, const Jobs&);
+// In the first numbers alone, the others being as they are.
+std::vector<Pull> of_first(const std::vector<Pull>&, Eigen::Index count);
 
-// The numbers' part of a test's pull where the friction of the test is off by a number of variance tau2.
+// The numbers' part of a test's pull where the friction of the test is off by a number of variance tau2; and of all tests.
 Pull allowing(const Pull& test, double tau2);
-
-// Of all, in the numbers alone; `weight` is that of what is stated.
-Pull sum_of(const Pulls&, double tau2, double weight = 1);
+Pull sum_of(const std::vector<Pull>&, double tau2);
 
 // Standard deviation tau of ln mu from test to test, where the tests show one; else 0.
-double friction_scatter(const Pulls&);
+double friction_scatter(const std::vector<Pull>&);
 
-// By how much the tests disagree with each other, whatever is known beforehand: s and nu, and of how many numbers they speak.
+// s, and nu.
 struct Dispersion {
-  double s = 1, freedom = 0, numbers = 0;
+  double s = 1, freedom = 0;
 };
-Dispersion dispersion_of(const Pulls&, double tau2);
+Dispersion dispersion_of(const std::vector<Pull>&, double tau2);
 
 }  // namespace freestand::measurement
