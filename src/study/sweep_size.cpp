@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "fragility/groups.hpp"
+#include "fragility/leave_out_groups.hpp"
 #include "fragility/tally_layout.hpp"
 #include "study/analysis.hpp"
 #include "study/intensities.hpp"
@@ -43,6 +44,22 @@ std::string bytes_text(double bytes) {
   return fmt::format("{:.3g} {}", bytes, units[unit]);
 }
 
+// Of each capacity its surface over bins, and its share in the cells and two numbers of its function, in every resample and with every group
+// left out; of each demand a histogram a bin; a line of text a point of any surface, of which the longest that was seen has 260 characters;
+// and what HDF5 writes of each table beside its numbers, 850 bytes in a file of 404 tables.
+double bytes_of_results(const fragility::TallyLayout& layout, int resamples) {
+  constexpr double histogram_cells = 400, line = 260, numbers_of_a_point = 8, header = 900, tables = 100,
+                   tables_of_an_axis = 10, of_all = 30;
+  double capacities = 0, cells = 1;
+  for (const std::size_t count : layout.capacity_count) capacities += static_cast<double>(count);
+  for (const std::size_t count : layout.axis_cells) cells += static_cast<double>(count);
+  const auto bins = static_cast<double>(layout.bins), edps = static_cast<double>(layout.edps);
+  const double sets = resamples + fragility::LeaveOutGroups::most_of_a_stratum * 2.0;
+  return 8 * capacities * sets * (bins + static_cast<double>(layout.im_cell_count()) + 2) +
+         header * (of_all + edps * (tables + tables_of_an_axis * static_cast<double>(layout.axis_cells.size()))) +
+         8 * edps * bins * histogram_cells + capacities * bins * cells * (8 * numbers_of_a_point + line);
+}
+
 }  // namespace
 
 SweepSize size_of(const Study& study, const Target& target, const Evaluator& evaluator) {
@@ -64,6 +81,7 @@ SweepSize size_of(const Study& study, const Target& target, const Evaluator& eva
   size.counts_bytes =
       word_bytes * (static_cast<double>(layout.count_size) + words_of_a_sum * static_cast<double>(layout.sum_size) +
                     static_cast<double>(ranking.words().size()));
+  size.results_bytes = bytes_of_results(layout, options.resamples);
   size.memory_bytes = copies * size.counts_bytes;
   size.motion_bytes = static_cast<double>(bytes_of(evaluator.motions()).row_bytes);
   return size;
@@ -75,10 +93,12 @@ std::string told(const SweepSize& size) {
                   bytes_text(size.memory_bytes), bytes_text(size.motion_bytes));
   const bool all = size.kept == size.samples;
   const double files = size.samples_bytes + (all ? 0 : size.counts_bytes);
-  return fmt::format("{} samples, of which {} kept: at most {} in {}; while it runs {} more in blocks/{}; {}",
-                     size.samples, all ? "all are" : fmt::format("the first {} are", size.kept), bytes_text(files),
-                     all ? "samples.h5" : "samples.h5 and tally.h5", bytes_text(size.blocks_bytes),
-                     all ? "" : fmt::format(" and {} for each node", bytes_text(size.counts_bytes)), memory);
+  return fmt::format(
+      "{} samples, of which {} kept: at most {} in {}, and {} in fragility.h5 and its tables; while it runs {} more in "
+      "blocks/{}; {}",
+      size.samples, all ? "all are" : fmt::format("the first {} are", size.kept), bytes_text(files),
+      all ? "samples.h5" : "samples.h5 and tally.h5", bytes_text(size.results_bytes), bytes_text(size.blocks_bytes),
+      all ? "" : fmt::format(" and {} for each node", bytes_text(size.counts_bytes)), memory);
 }
 
 void refuse_too_large(const SweepSize& size, const parallel::NodeSize& node) {
@@ -96,7 +116,7 @@ std::string room_told(const SweepSize& size, const std::filesystem::path& folder
   const double room = static_cast<double>(std::filesystem::space(folder, error).available);
   // Counts go to the disk where not all samples do: of each node while it runs, and in tally.h5.
   const double counts = size.kept == size.samples ? 0 : 2 * size.counts_bytes;
-  const double wanted = size.samples_bytes + size.blocks_bytes + counts;
+  const double wanted = size.samples_bytes + size.blocks_bytes + counts + size.results_bytes;
   if (error || room >= wanted) return "";
   return fmt::format(
       "{} has room for {}, and the sweep will take {} (keep: {{thin: 100}} or none takes less): it will stop when the "

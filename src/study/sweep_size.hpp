@@ -17,6 +17,7 @@ struct SweepSize {
   double samples_bytes = 0;  // of samples.h5, where nothing in it can be packed [B]
   double blocks_bytes = 0;   // of the kept samples in blocks/ while it runs [B]
   double counts_bytes = 0;   // of what is counted: of tally.h5, and of a node's file while it runs [B]
+  double results_bytes = 0;  // of fragility.h5 and the tables that a fit writes, at most [B]
   double memory_bytes = 0;   // of the counts in each rank, at most [B]
   double motion_bytes = 0;   // of the floor motions in each node [B]
 };

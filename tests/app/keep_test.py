@@ -139,6 +139,12 @@ class Keep(InFolder):
             most = float(number) * factor[unit]  # half of the columns are those of few values, and are packed to nothing
             self.assertLess(size, most)
             self.assertGreater(size, 0.2 * most)
+            number, unit = re.search(r"and (\S+) (\w*B) in fragility.h5 and its tables", told).groups()
+            self.succeed(["fit", out, "--quiet"])
+            size = sum((out / name).stat().st_size for name in ("fragility.h5", "surface.csv", "bins.csv"))
+            most = float(number) * factor[unit]  # of the fine cells of a function only those are written that hold samples
+            self.assertLess(size, most)
+            self.assertGreater(size, 0.2 * most)
         study = self.write("large.yaml", study_text().replace("count: 5", "count: 1000").replace("axes: [friction.mu_k]", """axes:
   [{name: friction.mu_k, bins: {count: 1000}}, {name: block.width_m, bins: {count: 1000}}, {name: motion.period_s, bins: {count: 1000}},
    {name: motion.pta_g, bins: {count: 1000}}],
