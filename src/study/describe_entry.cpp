@@ -18,7 +18,7 @@ class Description {
 
   void put(database::Entry& entry) const {
     describe_block(study_.model.block, entry);
-    describe_friction(study_.model.friction, entry);
+    describe_friction(study_.model, entry);
     entry.model = model_words(study_.model);
     entry.effects = effect_words(study_.model.effects);
     entry.scatter = scatter_words(study_.model);
@@ -47,11 +47,14 @@ class Description {
     if (block.mass.line > 0) entry.mass_kg = median(block.mass);  // else nobody gave it
   }
 
-  void describe_friction(const FrictionPart& friction, database::Entry& entry) const {
+  void describe_friction(const ModelPart& model, database::Entry& entry) const {
+    const FrictionPart& friction = model.friction;
     entry.mu_k = median(friction.mu ? *friction.mu : *friction.mu_k);
     entry.mu_s = friction.mu_s           ? median(*friction.mu_s)
                  : friction.static_ratio ? entry.mu_k * median(*friction.static_ratio)
                                          : entry.mu_k;
+    for (const EffectPart& effect : model.effects)
+      if (effect.name == "static_friction") entry.mu_s = entry.mu_k * median(effect.parameters.front());
   }
 
   // Of a number that grows with the block, which blocks of several sizes that are alike have in common over their height: as points of one

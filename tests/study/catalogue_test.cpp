@@ -75,6 +75,14 @@ TEST_F(CatalogueTest, AnEntryIsTheStudyThatItsPartsMake) {
   EXPECT_EQ(rack.shaking, catalogue.entries[0].words.shaking);
 }
 
+TEST_F(CatalogueTest, StaticFrictionIsToldAsAnEffectMakesIt) {
+  const Catalogue catalogue =
+      read(common +
+           "effects: [{name: static_friction, ratio: {uniform: [1.2, 1.6]}}]\nentries:\n"
+           "  - {id: a, class: rack, block: {width_m: 0.7, height_m: 1.8}, friction: {mu: 0.25}}\n");
+  EXPECT_DOUBLE_EQ(catalogue.entries[0].words.mu_s, 0.25 * 1.4);
+}
+
 TEST_F(CatalogueTest, WhatAnEntrySaysItselfComesBeforeTheCommonParts) {
   const Catalogue catalogue =
       read(common +
