@@ -13,6 +13,7 @@ set -euo pipefail
 [ $# -ge 2 ] || die 2 "give a study and a folder: jobs/freestand.mpirun.sh STUDY.yaml DIR [RANKS] [HOSTFILE]"
 study=$1 folder=$2 ranks=${3:-$(cores)} hostfile=${4:-}
 freestand=${FREESTAND:-$freestand_root/build/release/freestand}
+[[ $ranks =~ ^[1-9][0-9]*$ ]] || die 2 "RANKS is \"$ranks\": give a whole number above zero"
 [ -x "$freestand" ] || die 2 "there is no $freestand: build it (cmake --preset release && cmake --build build/release) or set FREESTAND"
 
 resume=()
@@ -25,12 +26,13 @@ else
 fi
 mpi_environment
 
-# mpirun passes SIGUSR1 on to the ranks, which end with 75 within ten seconds. SIGTERM would kill them.
-mpirun "${options[@]}" "$freestand" run "$study" -o "$folder" "${resume[@]}" &
+# mpirun passes SIGUSR1 on to the ranks, which end with 75 within ten seconds. SIGTERM, and the SIGINT that a terminal sends to all
+# that it started, would end mpirun with 1: it runs in a session of its own, and hears what this script hears.
+setsid mpirun "${options[@]}" "$freestand" run "$study" -o "$folder" "${resume[@]}" &
 run=$!
 trap 'kill -USR1 "$run" 2>/dev/null || true' TERM INT USR1
 wait_for "$run"
 if [ "$code" = 75 ]; then
-  say "stopped early; to go on: $0 $*"
+  say "stopped early; to go on:$(printf ' %q' "$0" "$@")"
 fi
 exit "$code"

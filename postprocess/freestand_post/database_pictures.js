@@ -63,7 +63,7 @@ function drawClasses() {
   drawing += `<text x="${x(0.5)}" y="${height - 8}" text-anchor="middle">${escape(`P(${event()}) at ${word.symbol} = ${text(im)}${unit(word)}`)}</text>`;
   const [first, final] = [rows[0], rows[rows.length - 1]];
   const finding = rows.length > 1 ? `At ${word.symbol} = ${text(im)}${unit(word)} and μ = ${text(mu)}, P(${event()}) ${share(final[1][0]) === share(first[1][0]) ? `is ${share(first[1][0])} for all ${rows.length} entries` : `goes from ${share(final[1][0])} (${final[0]}) to ${share(first[1][0])} (${first[0]})`}` :
-    rows.length ? `Only ${rows[0][0]} has this friction on this floor` : "No entry was swept there: choose another intensity";
+    rows.length ? `Only ${rows[0][0]} has this friction on this floor` : "No entry has a curve there: too few samples, or another intensity than was swept";
   show("classes", height, drawing, finding, "All entries with the chosen friction on the chosen floor, at the chosen intensity, with their bands; those of the chosen class in orange.", table);
 }
 

@@ -33,7 +33,7 @@ function compared(all, floor) {
   const clear = all.filter((one) => isClear(one.median)).sort((a, b) => a.median.value / a.theirs - b.median.value / b.theirs);
   const ratio = ({median, theirs}) => `${three(median.value / theirs)} [${three(median.low / theirs)}, ${three(median.high / theirs)}]`;
   const [least, most] = [clear[0], clear[clear.length - 1]], open = all.filter((one) => one.median.high === Infinity).length, loose = all.length - clear.length - open;
-  const parts = [clear.length > 1 ? `${clear.length === all.length ? "" : `${clear.length} clear ones `}by ${ratio(least)} to ${ratio(most)} times` : clear.length ? `a clear one by ${ratio(least)} times` : "",
+  const parts = [clear.length > 1 ? `${clear.length === all.length ? "" : `${clear.length} clear ones are `}${ratio(least)} to ${ratio(most)} times theirs` : clear.length ? `${clear.length === all.length ? "" : "the clear one is "}${ratio(least)} times theirs` : "",
     open ? `${open} ${open === 1 ? "is" : "are"}, or may be, beyond what was swept` : "", loose ? `${loose} ${loose === 1 ? "is" : "are"} unclear, since the curve is flat at 1/2 or falls below it again` : ""].filter(Boolean);
   return told.join(", ") + (parts.length ? ": " + parts.join("; ") : "");
 }
@@ -70,6 +70,6 @@ function drawReferences() {
   const told = legend([[diamond, "theirs; bar: 16 to 84 %"], ...frictions.map((mu, i) => [(a, b) => circle(a, b, colours[i % colours.length], true), "ours, μ = " + text(mu)]),
     [(a, b) => whisker(a - 8, a + 8, b, "#626b78"), `its ${Math.round(1000 * data.confidence) / 10} % interval`],
     ...(hollow ? [[(a, b) => circle(a, b, "#626b78", false), "unclear"]] : []), ...(open ? [[(a, b) => arrow(a - 4, b, "#626b78", 1), "beyond what was swept"]] : [])], place.end + 44);
-  show("references", place.end + 44 + told.height, drawing + told.drawing, all.length ? compared(all, floor) : "No curve of ours is of what theirs are of",
+  show("references", place.end + 44 + told.height, drawing + told.drawing, all.length ? compared(all, floor) : "Ours have no median of what theirs are of: no curve, or bins with too few samples",
     `Medians beside those of ${unique(entries.map((e) => e.reference_source)).join(", ")}: where a curve first reaches 1/2, and from where its band does to where all of its band does. Hollow: unclear, since the curve is flat about 1/2 or falls below it again. Choose another floor above to see what it changes.`, table);
 }

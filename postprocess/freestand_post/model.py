@@ -21,9 +21,10 @@ def exceedance(edp, capacity):
             tail = ndtr((bins["lambda"][i] - np.log(capacity)) / bins["omega"][i])
             over, still = bins["p_over"][i], np.nan_to_num(bins["p_still"][i])
             result[i] = over + (1 - over) * (1 - still) * tail
-        elif status != TOO_FEW and edp.cells.shape[1] and bins["n"][i] > 0:
+        elif status != TOO_FEW and bins["n"][i] > 0:
             beyond = np.concatenate([np.cumsum(edp.cells[i][::-1])[::-1], [0.0]])
-            result[i] = (bins["n_over"][i] + np.interp(np.log(capacity), edp.ln_edge, beyond)) / bins["n"][i]
+            standing = np.interp(np.log(capacity), edp.ln_edge, beyond) if edp.cells.shape[1] else 0.0  # no cells: none that moved stood
+            result[i] = (bins["n_over"][i] + standing) / bins["n"][i]
     return result
 
 

@@ -117,7 +117,7 @@ def parameter(name):
     if name.startswith("laboratory."):
         return f"{FAULTS.get(name.removeprefix('laboratory.'), name)}: factor"
     parts = name.removeprefix("effects.").split(".")
-    last = words.split_unit(parts[-1])[0].removesuffix("_per")
+    last = words.split_unit(parts[-1])[0]
     last = {"mu": "μ", "mu_k": "μk", "mu_s": "μs"}.get(last, last.replace("_", " "))
     return ": ".join([" ".join(parts[:-1]).replace("_", " "), last]) if len(parts) > 1 else last
 

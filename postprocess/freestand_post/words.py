@@ -56,8 +56,8 @@ DRAWS = {
     "scale": "scale factor",
     "motion": "motion",
 }
-UNIT_SUFFIXES = ("mps2", "radps", "mps", "rad", "kg", "g", "m", "s", "hz")
-UNITS = {"mps2": "m/s²", "radps": "rad/s", "mps": "m/s", "m/s2": "m/s²", "hz": "Hz"}
+UNIT_SUFFIXES = ("mps2", "radps", "mps", "rad", "kgm2", "kg", "g", "m", "s", "hz", "npm", "nspm", "n")
+UNITS = {"mps2": "m/s²", "radps": "rad/s", "mps": "m/s", "m/s2": "m/s²", "hz": "Hz", "kgm2": "kg m²", "npm": "N/m", "nspm": "N s/m", "n": "N"}
 MOTIONS = {"slide": "sliding", "rock": "rocking", "slide_rock": "slide-rock", "bouc_wen": "sliding"}  # of a block, by the model
 OUTCOMES = {
     "at_rest": "stayed at rest",
@@ -69,8 +69,10 @@ OUTCOMES = {
 }
 
 def split_unit(name):
-    """"width_m" -> ("width", "m"); "mu_k" -> ("mu_k", "")."""
+    """"width_m" -> ("width", "m"); "rate_per_s" -> ("rate", "1/s"); "mu_k" -> ("mu_k", "")."""
     stem, _, last = name.rpartition("_")
+    if stem.endswith("_per") and last in UNIT_SUFFIXES:
+        return stem.removesuffix("_per"), f"1/{UNITS.get(last, last)}"
     return (stem, UNITS.get(last, last)) if stem and last in UNIT_SUFFIXES else (name, "")
 
 

@@ -187,9 +187,10 @@ void about_overturning(const Tally& tally, const Result& result, std::vector<std
                     curve.rate_p));
   if (curve.misfit_p <= test_level && !curve.adequate && !(curve.off_by <= tally.options().adequate))
     out.push_back(fmt::format(
-        "The overturning curve misses the counted shares by up to {:.2f}, at an IM of {:.3g} (p = {:.2g}): one "
-        "lognormal curve is too simple, and may be off by {:.2f}.",
-        curve.misfit, curve.misfit_im, curve.misfit_p, curve.off_by));
+        "The overturning curve misses the counted shares by up to {:.2g}, at an IM of {:.3g} (p = {:.2g}): one "
+        "lognormal curve is too simple{}.",
+        curve.misfit, curve.misfit_im, curve.misfit_p,
+        std::isnan(curve.off_by) ? "" : fmt::format(", and may be off by {:.2f}", curve.off_by)));
   if (curve.penalised && !std::isnan(curve.median))
     out.push_back(
         "One intensity parts all samples that overturned from all that stood: the overturning curve is a penalised "

@@ -61,8 +61,13 @@ DemandError demand_error(const edp::Edp& edp, const std::vector<Pair>& pairs, st
   }
   std::sort(errors.begin(), errors.end());
   std::sort(demands.begin(), demands.end());
-  return {
-      edp.name, edp.unit, quantile(errors, 0.5), quantile(errors, 0.95), quantile(errors, 1), quantile(demands, 0.5)};
+  return {edp.name,
+          edp.unit,
+          errors.size(),
+          quantile(errors, 0.5),
+          quantile(errors, 0.95),
+          quantile(errors, 1),
+          quantile(demands, 0.5)};
 }
 
 }  // namespace
@@ -109,11 +114,12 @@ nlohmann::ordered_json accuracy_json(const Accuracy& accuracy) {
                                  {"flip_share_upper", accuracy.flip_share_upper},
                                  {"edps", nlohmann::ordered_json::object()}};
   for (const auto& d : accuracy.demands)
-    json["edps"][d.name] = {{"unit", d.unit},
-                            {"median_error", d.median},
-                            {"p95_error", d.p95},
-                            {"largest_error", d.largest},
-                            {"median_demand", d.median_demand}};
+    if (d.samples > 0)  // else nothing was told of it: everything fell, or the study does not follow it
+      json["edps"][d.name] = {{"unit", d.unit},
+                              {"median_error", d.median},
+                              {"p95_error", d.p95},
+                              {"largest_error", d.largest},
+                              {"median_demand", d.median_demand}};
   return json;
 }
 

@@ -22,6 +22,7 @@ inline constexpr double tightest_tolerance = 1e-13, least_tolerance = 1e-12;
 
 struct DemandError {
   std::string name, unit;
+  std::size_t samples = 0;                  // compared; 0: nothing is known of it
   double median = 0, p95 = 0, largest = 0;  // of the absolute difference
   double median_demand = 0;                 // of the samples compared that moved, for scale
 };
@@ -38,7 +39,7 @@ struct Accuracy {
 Accuracy check_accuracy(const parallel::Communicator&, const Study&, const Evaluator&, std::int64_t samples);
 
 // {tolerance, tighter_tolerance, samples_checked, outcome_flips, flip_share, flip_share_upper, edps: {NAME: {unit,
-// median_error, p95_error, largest_error, median_demand}}}
+// median_error, p95_error, largest_error, median_demand}}}: of demands that any sample tells
 nlohmann::ordered_json accuracy_json(const Accuracy&);
 
 // Sentences for what a user must know: demands known to worse than 1 %, more than 1 % of chaotic samples.

@@ -148,8 +148,10 @@ MeasurePages intensities_catalogue() {
 MeasurePages demands_catalogue() {
   return catalogue(
       demands(), "demand", "edp",
-      "`freestand edp NAME` tells more. A finished sweep holds all of them, those by side where its study says "
-      "slip_by_side:\n`freestand fit DIR --edp NAME -o DIR2` needs no new one.\n");
+      "`freestand edp NAME` tells more. A finished sweep holds all of them that its study asks for: those by side are "
+      "followed "
+      "where it says\nslip_by_side, those of forces with contact_forces, of a height with acceleration_height_m. "
+      "`freestand fit DIR --edp NAME -o DIR2`\nneeds no new sweep for what was followed.\n");
 }
 
 }  // namespace freestand::study

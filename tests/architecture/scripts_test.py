@@ -2,6 +2,7 @@
 """The shell scripts against stand-ins for dpkg-query, apt-get, sudo, mpirun, srun and freestand: what they call, say and return."""
 import os
 import pathlib
+import shlex
 import signal
 import subprocess
 import tempfile
@@ -146,6 +147,12 @@ class Mpirun(Stage):
         self.assertEqual(result.returncode, 75)
         self.assertIn("to go on", result.stdout)
 
+    def test_the_line_that_goes_on_can_be_pasted(self):
+        self.environment["CODE"] = "75"
+        folder = self.folder / "new one"
+        told = self.run_script(self.script, "my study.yaml", folder, "2").stdout.split("to go on: ")[1]
+        self.assertEqual(shlex.split(told), [str(self.script), "my study.yaml", str(folder), "2"])
+
     def test_what_has_to_be_cured_first_is_not_to_be_started_again(self):
         self.environment["CODE"] = "74"
         result = self.run_script(self.script, "s.yaml", self.folder / "new")
@@ -156,6 +163,8 @@ class Mpirun(Stage):
         self.environment["CODE"] = "3"
         self.assertEqual(self.run_script(self.script, "s.yaml", self.folder / "new").returncode, 3)
         self.assertEqual(self.run_script(self.script).returncode, 2)
+        for ranks in ("two", "0", "-1"):
+            self.assertEqual(self.run_script(self.script, "s.yaml", "x", ranks).returncode, 2)
         self.environment["FREESTAND"] = "/nowhere/freestand"
         self.assertEqual(self.run_script(self.script, "s.yaml", "x").returncode, 2)
 
@@ -168,6 +177,18 @@ class Mpirun(Stage):
             time.sleep(0.02)
         time.sleep(0.2)
         process.send_signal(signal.SIGTERM)
+        process.communicate(timeout=30)
+        self.assertEqual(process.returncode, 75)
+
+    def test_so_does_what_a_terminal_sends_to_all_that_it_started(self):
+        self.stand_in("mpirun", "trap 'exit 75' USR1\ntrap 'exit 1' INT\nfor i in $(seq 200); do sleep 0.05; done")
+        process = subprocess.Popen([self.script, "s.yaml", self.folder / "new"], stdout=subprocess.PIPE, env=self.environment, start_new_session=True)
+        for _ in range(200):
+            if self.called("mpirun"):
+                break
+            time.sleep(0.02)
+        time.sleep(0.2)
+        os.killpg(process.pid, signal.SIGINT)
         process.communicate(timeout=30)
         self.assertEqual(process.returncode, 75)
 

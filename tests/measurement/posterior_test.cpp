@@ -27,13 +27,14 @@ const test::Counts held_often = test::likely_counts(noisy_sets, 0.9);
 TEST(Posterior, IntervalsHoldTheTruthAsOftenAsTheySay) {
   const Dataset truth = test::made_dataset(weakening_cabinet(), 0);
   const Values numbers = {0.2, 0.3, 0.1};
-  int holds[3] = {};
+  int holds[3] = {}, told_off = 0;
   double rank = 0;
   for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(noisy_sets); ++key) {
     const Dataset data = test::with_noise(truth, key);
     const Bench bench(data, 0);
     const Posterior p = posterior(bench, test::fitted(bench, weakening(bench), numbers), run_here);
     ASSERT_EQ(p.draws.size(), 500u);
+    told_off += !p.stated_otherwise.empty();
     EXPECT_GT(p.counted, 0.3);
     for (std::size_t k = 0; k < 3; ++k) {
       const Interval interval = p.interval(k, 0.9);
@@ -47,6 +48,7 @@ TEST(Posterior, IntervalsHoldTheTruthAsOftenAsTheySay) {
     EXPECT_GE(number, held_often.least);
     EXPECT_LE(number, held_often.most);
   }
+  EXPECT_LE(told_off, test::likely_counts(noisy_sets, 0.05).most);  // all is as stated
   EXPECT_NEAR(rank, 0.5, 3 / std::sqrt(12.0 * noisy_sets));  // three standard deviations of the mean of uniform ranks
 }
 
@@ -158,6 +160,32 @@ TEST(Posterior, AModelThatMissesIsLessSure) {
   const Posterior wrong = posterior(bench, test::fitted(bench, test::free_friction(), {0.17}), run_here);
   const Interval of_right = right.interval(0, 0.9), of_wrong = wrong.interval(0, 0.9);
   EXPECT_GT(of_wrong.upper - of_wrong.lower, 3 * (of_right.upper - of_right.lower));
+}
+
+// Nor does it have a width, a gain or a clock stand for what it lacks: its draws are those of a laboratory that states all exactly. (They ran
+// away, as far as a gain of three standard deviations let them, and bands held a quarter of the readings.)
+TEST(Posterior, OfAModelThatMissesAllIsAsStated) {
+  Dataset data = test::made_dataset(test::cabinet("static_friction", {1.4}));
+  const auto draws = [&] {
+    const Bench bench(data, 0);
+    return posterior(bench, test::fitted(bench, test::free_friction(), {0.2}), run_here).draws;
+  };
+  const std::vector<Values> within_tolerances = draws();
+  data.tolerance = {.width = 0, .centre_height = 0, .floor_gain = 0, .clock_s = 0};
+  EXPECT_EQ(within_tolerances, draws());
+}
+
+// What a floor's gain makes of a fit is told of the laboratory; numbers that are given wrongly are told as such, whatever is off besides.
+TEST(Posterior, WrongNumbersAreNotLaidOnTheLaboratory) {
+  const Dataset data = test::with_noise(read_otherwise(test::made_dataset(test::cabinet(), 0), 1.02, 0), 5);
+  const Bench bench(data, 0);
+  const ModelFit fit = test::fitted(bench, test::free_friction(), {0.2});
+  const Posterior of_fit = posterior(bench, fit, run_here);
+  EXPECT_EQ(of_fit.stated_otherwise.rfind("the floor's accelerometer reads ", 0), 0u) << of_fit.stated_otherwise;
+  EXPECT_TRUE(of_fit.better.empty());
+  ModelFit given = fit;
+  given.x = {0.17};
+  EXPECT_FALSE(posterior(bench, given, run_here).better.empty());
 }
 
 // A hundred draws at 0.5, 1.5 ... 99.5: an interval of 90 % that must hold what lies beyond 5 % of them leaves out 10 % of the

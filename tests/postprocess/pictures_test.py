@@ -11,7 +11,7 @@ from support import make_results
 import h5py
 import numpy as np
 from freestand_post import pictures, reading, style, words
-from freestand_post.pictures import intensities, surface
+from freestand_post.pictures import intensities, overturning, surface
 from matplotlib.text import Text
 
 
@@ -86,11 +86,33 @@ class Pictures(unittest.TestCase):
 
     def test_a_surface_that_overturning_lifts_over_all_capacities_says_so(self):
         sweep = mock.Mock(centre=np.array([0.2, 0.6]), im_unit="g")
-        edp = mock.Mock(unit="m", label="U")
+        edp = mock.Mock(unit="m", label="U", bins={"n": np.array([9, 9]), "n_over": np.array([0, 6])})
         edp.name = "peak_slip_m"
         for over, said in ((0.7, "they overturn"), (0.3, "Nowhere do half")):
             p = np.array([[0.1, 0.05], [over + 0.01, over]])
             self.assertIn(said, surface._finding(sweep, edp, "U", "PGA", p, np.array([0.1, 0.2])))
+
+    def test_where_all_specimens_fall_titles_say_so(self):
+        sweep = mock.Mock(centre=np.array([0.2, 0.6]), edge=np.array([0.1, 0.4, 0.8]), im_unit="g")
+        fell = {"n": np.array([9, 9]), "n_over": np.array([9, 9]), "p_over": np.array([1.0, 1.0])}
+        edp = mock.Mock(unit="1", label="θ/α", bins=fell)
+        nothing = np.full((2, 2), np.nan)
+        self.assertEqual(surface._finding(sweep, edp, "θ/α", "PGA", nothing, np.array([0.1, 0.2])),
+                         "All specimens overturn, and so exceed every θ/α")
+        self.assertEqual(overturning._finding(sweep, fell, {}, False, "PGA"), "100 % of the specimens fall at every intensity swept")
+
+    def test_overturning_is_told_by_counted_shares_where_the_curve_is_refuted(self):
+        sweep = mock.Mock(centre=np.array([0.2, 0.6, 1.0]), edge=np.array([0.1, 0.4, 0.8, 1.2]), im_unit="g")
+        bins = {"n_over": np.array([0, 4, 4]), "p_over": np.array([0.0, 0.43, 0.43])}
+        curve = {"median": 1.0, "adequate": False}
+        self.assertRegex(overturning._finding(sweep, bins, curve, True, "PGA"), "^43.% of the specimens fall at the end of the range swept")
+        self.assertIn("By the fitted curve, half", overturning._finding(sweep, bins, {**curve, "adequate": True}, True, "PGA"))
+
+    def test_units_are_read_off_names(self):
+        for name, found in (("rate_per_s", ("rate", "1/s")), ("peak_chain_force_n", ("peak_chain_force", "N")), ("stiffness_npm", ("stiffness", "N/m")),
+                            ("width_m", ("width", "m")), ("mu_k", ("mu_k", ""))):
+            self.assertEqual(words.split_unit(name), found)
+        self.assertEqual(words.beyond("peak_chain_force_n", "F", "500 N"), "pull at a chain by more than 500 N")
 
     def test_outer_axes_are_named(self):
         for name, picture in self.drawn.items():

@@ -47,6 +47,14 @@ TEST(Accuracy, EstimateFollowsTheTolerance) {
   }
 }
 
+// What a study does not follow has no error, and no demand of zero.
+TEST(Accuracy, DemandsThatNoSampleTellsAreLeftOut) {
+  const auto edps = accuracy_json(checked(slender(""), 20))["edps"];
+  EXPECT_TRUE(edps.contains("peak_slip_m"));
+  EXPECT_FALSE(edps.contains("peak_slip_left_m"));
+  EXPECT_TRUE(accuracy_json(checked(slender("slip_by_side: true\n"), 20))["edps"].contains("peak_slip_left_m"));
+}
+
 TEST(Accuracy, FewSamplesAreAllChecked) {
   const Accuracy accuracy = checked(slender(""), 17);
   EXPECT_EQ(accuracy.checked, 17);

@@ -61,9 +61,12 @@ def _finding(sweep, bins, curve, drawn, im):
     half = crossing(sweep.centre, bins["p_over"], 0.5)
     if drawn and not curve["adequate"] and np.isfinite(half):
         return f"By the counted shares, half of the specimens overturn at {words.is_(im, half, sweep.im_unit)}"
-    if np.isfinite(median) and sweep.edge[0] <= median <= sweep.edge[-1]:
+    if drawn and curve["adequate"] and np.isfinite(median) and sweep.edge[0] <= median <= sweep.edge[-1]:
         return f"By the fitted curve, half of the specimens overturn at {words.is_(im, median, sweep.im_unit)}"
-    top = int(np.nanargmax(bins["p_over"]))
+    shares = bins["p_over"][np.isfinite(bins["p_over"])]
+    if shares.min() == shares.max():
+        return f"{words.percent(shares[0])} of the specimens fall at every intensity swept"
+    top = int(np.flatnonzero(bins["p_over"] == shares.max())[-1])
     if top == np.flatnonzero(np.isfinite(bins["p_over"]))[-1]:
         return (f"{words.percent(bins['p_over'][top])} of the specimens fall at the end of the range swept, "
                 f"{words.is_(im, sweep.centre[top], sweep.im_unit)}")

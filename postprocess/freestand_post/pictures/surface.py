@@ -89,9 +89,11 @@ def _finding(sweep, edp, symbol, im, p, capacity):
             found.append((abs(i - 0.5 * p.shape[0]), sweep.centre[i], np.exp(-half), np.exp(-most)))
     if not found and np.nanmax(p, initial=0) >= 0.5:
         return f"Where half of the specimens exceed one of the capacities of {symbol} shown, half exceed them all: they overturn"
+    if not found and np.nansum(edp.bins["n_over"]) == np.nansum(edp.bins["n"]):
+        return f"All specimens overturn, and so exceed every {symbol}"
     if not found:
         return f"Nowhere do half of the specimens reach the capacities of {symbol} shown" if np.isfinite(p).any() else f"Too few samples for a surface of {symbol}"
     _, x, half, most = min(found)
-    where = words.is_(f"At {im}", x, sweep.im_unit)
+    where = "By this surface, " + words.is_(f"at {im}", x, sweep.im_unit)
     rest = f", nine in ten more than {words.quantity(most, edp.unit)}" if np.isfinite(most) else ""
     return f"{where}, half of the specimens {words.beyond(edp.name, edp.label, words.quantity(half, edp.unit))}{rest}"

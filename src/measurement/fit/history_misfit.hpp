@@ -1,5 +1,6 @@
 // How far numbers of a fit are from the measured histories, where all else that may differ is as it is likeliest: the friction of each test,
-// where it scatters, and what the laboratory states, within its tolerances. See posterior.hpp.
+// where it scatters, and what the laboratory states, within its tolerances. See posterior.hpp. A model that leaves more than a model may
+// (adequate of levels.hpp), however what is stated is off, would have deviations stand for what it lacks: of such a one all is as stated.
 #pragma once
 
 #include <Eigen/Dense>
@@ -24,9 +25,10 @@ class HistoryMisfit {
   Eigen::VectorXd step(const Eigen::MatrixXd& inverse) const;
   // G of the fit's numbers; no_fit: they give no history.
   double operator()(const Values& numbers) const;
-  // Something that is stated is off by more than chance.
-  bool deviates() const;
-  // The same as a sentence, "the width is 1.2 % smaller than stated", of a model that leaves no more than a model may; else empty.
+  // The fit is likeliest near its own numbers where all is as stated, and elsewhere only where something is off by more than chance.
+  bool likeliest_as_stated() const;
+  // "the width is 1.2 % smaller than stated": what is off by more than its standard deviation, and by more than chance; empty: nothing is, or
+  // the model leaves more than a model may.
   std::string stated_otherwise() const;
 
   // The model in which what is stated is free behind the numbers of the fit; and as it may be where these are so, in the s-th draw.
@@ -35,7 +37,10 @@ class HistoryMisfit {
 
  private:
   void look_from(const AsStated&, const Jobs&);
+  bool leaves_too_much(const AsStated&) const;
+  double weight() const;
   void reduce();
+  std::vector<double> beyond_chance() const;                // deviations of what is off by more than chance, else 0
   Eigen::VectorXd from_place(const Values& numbers) const;  // in the cube
 
   const Bench& bench_;
@@ -47,10 +52,11 @@ class HistoryMisfit {
   std::vector<Pull> pulls_;
   double tau2_ = 0;
   Dispersion dispersion_;
+  double fall_as_stated_ = 0;  // of G, from the fit by its numbers alone, all being as stated
   Eigen::MatrixXd rates_;
-  Eigen::VectorXd against_, against_deviations_;
-  Eigen::MatrixXd coupling_;                   // half the mixed second derivatives, rows of what is stated
-  Eigen::LLT<Eigen::MatrixXd> of_deviations_;  // half the second derivatives of G in what is stated
+  Eigen::VectorXd against_, against_deviations_, errors_;  // errors_: standard errors of the deviations
+  Eigen::MatrixXd coupling_;                               // half the mixed second derivatives, rows of what is stated
+  Eigen::LLT<Eigen::MatrixXd> of_deviations_;              // half the second derivatives of G in what is stated
   // Of each test: the direction of its friction, C^-1 times those of what is stated, and the products of both.
   std::vector<Eigen::MatrixXd> friction_, stated_;
   std::vector<Eigen::VectorXd> friction_stated_;

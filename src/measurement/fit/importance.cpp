@@ -21,8 +21,6 @@ constexpr std::size_t draw_count =
 constexpr double proposed_freedom = 5;  // tails that are heavier than those of the answer, and a variance
 constexpr double enough = 0.3;          // of the points count
 constexpr int most_proposals = 12;
-constexpr double told_lead =
-    10;  // in G over s^2: chance gives a fit that is best no such lead over its neighbours but once in 600
 
 // Points about a middle, and the density from which they come.
 struct Proposal {

@@ -8,6 +8,9 @@
 
 namespace freestand::measurement {
 
+// In G over s^2: chance gives a fit that is best no such lead over its neighbours but once in 600.
+inline constexpr double told_lead = 10;
+
 // G of points, all at once; an empty point has none.
 using Misfits = std::function<std::vector<double>(const std::vector<Values>&)>;
 

@@ -63,8 +63,7 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
       solved.eigenvectors() * rates.cwiseInverse().asDiagonal() * solved.eigenvectors().transpose();
   // The fit knows one friction of all tests, and all that is stated as stated: where that is not so, other numbers are likelier.
   draw_by_importance(fit, misfit.step(inverse), out.dispersion * out.dispersion * inverse, misfits, out);
-  if (misfit.deviates())
-    out.better.clear();  // better only where the laboratory is as it does not say: that is told instead
+  if (misfit.likeliest_as_stated()) out.better.clear();
   std::sort(out.of_mean.begin(), out.of_mean.end());
   out.in_laboratory = misfit.in_laboratory();
   for (std::size_t s = 0; s < out.of_mean.size(); ++s) out.stated.push_back(misfit.stated_beside(out.of_mean[s], s));

@@ -13,10 +13,10 @@
 // What the laboratory states may be off by deviations d, in standard deviations (Dataset::tolerance): they are 0 +- 1 beforehand, and G is that where
 // they are likeliest,
 //
-//   G(x) = min over d of  sum |r_i(x) + D_i d|^2 + s^2 d^T d
+//   G(x) = min over d of  sum |r_i(x) + D_i d|^2 + max(1, s^2) d^T d
 //
-// with the derivatives D_i where both x and d are likeliest. So a draw is not surer of its numbers than a width, an accelerometer's gain
-// and a clock let it be.
+// with the derivatives D_i where both x and d are likeliest. So a draw of a model that is enough is not surer of its numbers than a width,
+// an accelerometer's gain and a clock let it be. Of a model that leaves too much, however these are off, all is as stated (history_misfit.hpp).
 //
 // Friction may differ from test to test: the standard deviation tau of its logarithm is estimated by restricted likelihood (each test
 // has a direction f_i = d history/d ln mu beside the floor's replays in C_i), and kept where its absence has a p value below 5 %.
@@ -49,8 +49,9 @@ struct Posterior {
   double friction_scatter = 0;  // tau
   // Peaks: ln(measured/model) of another test's peak slip beside the draws: its mean and standard deviation; 0: not known.
   double slip_bias_ln = 0, slip_scatter_ln = 0;
-  std::string stated_otherwise =
-      {};  // "the width is 1.2 % smaller than stated": what would fit the histories better; empty: nothing would
+  // "the width is 1.2 % smaller than stated": what is off by more than its tolerance and by more than chance; empty: nothing is, or the model
+  // leaves too much to tell.
+  std::string stated_otherwise = {};
   Values better = {};  // numbers that fit the tests better than the fit does, beyond chance; empty: none were met
   // Share of the points that count: (sum w)^2/(n sum w^2). 0: G is so rough that too few do, and the draws are those of derivatives at the fit.
   double counted = 1;

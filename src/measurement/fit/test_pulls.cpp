@@ -68,6 +68,7 @@ Pull OwnShifts::pull(std::size_t i, double shift) const {
 
 double OwnShifts::best(std::size_t i) const {
   constexpr int steps = 6;
+  constexpr double little = 1e-4;
   const auto misfit = [&](double shift, VectorXd& r) {
     const Prediction model = at(i, place_.x, shift);
     r = judge_.residual(i, model);
@@ -77,7 +78,7 @@ double OwnShifts::best(std::size_t i) const {
   VectorXd r;
   double G = misfit(shift, r);
   for (int k = 0; k < steps; ++k) {
-    const MatrixXd f = slopes(i, shift).rightCols(1);
+    const MatrixXd f = judge_.change(i, at(i, place_.x, shift), at(i, place_.x, shift + little)) / little;
     const double ff = judge_.products(i, f).gram(0, 0);
     if (!(ff > 0)) break;
     double step = std::clamp(-judge_.against(i, f, r)[0] / ff, -0.3, 0.3);
