@@ -13,8 +13,9 @@ struct GroupShare {
 };
 
 // The first record_groups are groups of records, the others hold samples that are motions of their own: of these the exact binomial
-// limits, and where each of these groups is a design of its own (scrambles), at least those that the designs' scatter shows, as of records below:
-// samples of a design are not independent, and where an answer depends on products of what is drawn, pairs of them may be worth one. Of the share p of the n samples of records, limits in ln odds,
+// limits, and where each of these groups is a design of its own (scrambles), at least those that the designs' scatter shows, as of records
+// below: samples of a design are not independent, and where an answer depends on products of what is drawn, two of them may be worth one.
+// Of the share p of the n samples of records, limits in ln odds,
 //   ln(p/(1 - p)) -+ t_f se/(p (1 - p)),   se^2 = sum over the G records of (e - mean e)^2 (G - 1)/G,   e = (hits - p n_g)/(n - n_g),
 // e being by how much p moves where the record is left out, with the degrees of freedom f that the records show: few records that
 // make most of the count tell its error badly (variance_sum.hpp). At least as far as independent samples reach.
