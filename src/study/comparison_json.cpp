@@ -229,9 +229,10 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
                     "it is fitted with the others (mu: {{calibrate: [0.05, 1]}})",
                     100 * open.friction_scatter));
   if (!open.stated_otherwise.empty())
-    c.findings.push_back(
-        fmt::format("the tests are fitted best as if {}: measure that again; intervals, draws and bands allow for it",
-                    open.stated_otherwise));
+    c.findings.push_back(fmt::format(
+        "the tests are fitted best as if {}: measure that again, or let diagnose look for an effect that does as much; "
+        "intervals, draws and bands allow for it",
+        open.stated_otherwise));
   if (const std::string unread = unread_floors(bench, c.tests); !unread.empty()) c.findings.push_back(unread);
   if (const std::string level = level_tests(*p); !level.empty()) c.findings.push_back(level);
   if (fit.evaluations == 0 && !open.better.empty()) c.findings.push_back(better_numbers(fit, open.better));
