@@ -25,10 +25,10 @@ class Cell {
   std::int64_t n() const { return static_cast<std::int64_t>(table_.col(0).sum()); }
   std::int64_t hits(Eigen::Index c) const { return static_cast<std::int64_t>(table_.col(1 + c).sum()); }
 
-  Interval band(Eigen::Index c, const MotionGroups& units, double confidence) const {
+  Interval band(Eigen::Index c, const MotionGroups& motions, double confidence) const {
     std::vector<GroupShare> shares;
     for (Eigen::Index g = 0; g < table_.rows(); ++g) shares.push_back({table_(g, 0), table_(g, 1 + c)});
-    return share_interval(shares, static_cast<std::size_t>(units.record_groups()), confidence, units.designs());
+    return share_interval(shares, motions, confidence);
   }
 
  private:

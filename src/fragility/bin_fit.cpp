@@ -25,8 +25,7 @@ class Bin {
         edp_(options_.edps[edp]),
         bin_(bin),
         histogram_(tally.histogram(edp, bin)),
-        records_(static_cast<std::size_t>(tally.groups().record_groups())),
-        designs_(tally.groups().designs()),
+        motions_(tally.groups()),
         by_group_(sums_by_group(tally, edp, bin)),
         total_(by_group_.colwise().sum()) {
     if (!options_.pilot_slope.empty()) pilot_ = {options_.pilot_slope[edp][bin], std::log(options_.pilot_im[bin])};
@@ -81,7 +80,7 @@ class Bin {
     }
     if (!(n > 0)) return;
     p = hits / n;
-    const Interval interval = share_interval(groups, records_, options_.confidence, designs_);
+    const Interval interval = share_interval(groups, motions_, options_.confidence);
     lower = interval.lower;
     upper = interval.upper;
   }
@@ -98,7 +97,7 @@ class Bin {
     fit_.ad_statistic = goodness.ad;
     std::vector<GroupMoments> groups;
     for (const auto& row : by_group_.rowwise()) groups.push_back(moments(BinSums(row), pilot_));
-    const Clustering clusters = clustering(groups, records_);
+    const Clustering clusters = clustering(groups, static_cast<std::size_t>(motions_.record_groups()));
     fit_.correlation = clusters.correlation;
     // What a misfit of the tally's making may add to S is granted.
     const double certain = std::max(0.0, goodness.ks - goodness.resolution);
@@ -121,8 +120,7 @@ class Bin {
   const EdpOptions& edp_;
   std::size_t bin_;
   std::span<const std::int64_t> histogram_;
-  std::size_t records_;
-  bool designs_;
+  const MotionGroups& motions_;
   Eigen::MatrixXd by_group_;
   BinSums total_;
   BinLine pilot_;

@@ -141,4 +141,8 @@ Interval share_interval(std::span<const GroupShare> groups, std::size_t record_g
   return {std::max(0.0, p - limit(recorded.lower, made.lower)), std::min(1.0, p + limit(recorded.upper, made.upper))};
 }
 
+Interval share_interval(std::span<const GroupShare> groups, const MotionGroups& motions, double confidence) {
+  return share_interval(groups, static_cast<std::size_t>(motions.record_groups()), confidence, motions.designs());
+}
+
 }  // namespace freestand::fragility

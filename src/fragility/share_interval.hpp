@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "fragility/groups.hpp"
 #include "fragility/intervals.hpp"
 
 namespace freestand::fragility {
@@ -57,5 +58,6 @@ struct GroupShare {
 // of which none at 0.3 and at 0.8 lies in 0.87 to 0.93.
 Interval share_interval(std::span<const GroupShare> groups, std::size_t record_groups, double confidence,
                         bool designs = false);
+Interval share_interval(std::span<const GroupShare> groups, const MotionGroups&, double confidence);
 
 }  // namespace freestand::fragility

@@ -17,12 +17,11 @@ struct Point {
 };
 
 // Share of the samples above a capacity, its counts in the given column of the groups' table.
-Point empirical_point(const Eigen::MatrixXd& groups, Eigen::Index column, const MotionGroups& units,
+Point empirical_point(const Eigen::MatrixXd& groups, Eigen::Index column, const MotionGroups& motions,
                       double confidence) {
   std::vector<GroupShare> shares;
   for (Eigen::Index g = 0; g < groups.rows(); ++g) shares.push_back({groups(g, 0), groups(g, column)});
-  const Interval band =
-      share_interval(shares, static_cast<std::size_t>(units.record_groups()), confidence, units.designs());
+  const Interval band = share_interval(shares, motions, confidence);
   return {groups.col(column).sum() / groups.col(0).sum(), band.lower, band.upper};
 }
 

@@ -115,6 +115,12 @@ std::string column_name(std::string dotted) {
   return dotted;
 }
 
+Friction as_effects_make_it(const Specimen& specimen, const Shaking& shaking) {
+  const bool changed = std::any_of(specimen.effects.begin(), specimen.effects.end(),
+                                   [](const EffectUse& use) { return bool(use.effect->specimen); });
+  return changed ? dynamics::set_up(specimen, shaking).specimen.friction : specimen.friction;
+}
+
 const std::vector<Column>& derived_columns() {
   static const std::vector<Column> columns = {
       {"block_width_m", "m", "width of the block"},
@@ -331,7 +337,7 @@ Realisation Realiser::operator()(std::uint64_t sample) const {
   parts.shake(sample, out);
 
   const Block& block = out.specimen.block;
-  const Friction friction = dynamics::set_up(out.specimen, out.shaking).specimen.friction;  // as effects make it
+  const Friction friction = as_effects_make_it(out.specimen, out.shaking);
   const double derived[] = {block.base_m(),  block.full_height_m(), block.alpha_rad(), block.size_m(),
                             block.p_radps(), friction.mu_k,         friction.mu_s};
   for (std::size_t i = 0; i < parts.derived_wanted.size(); ++i)

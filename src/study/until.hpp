@@ -31,10 +31,10 @@ std::string passed_over_told(const Drawn&);
 
 // Of a study with `until`: summary["until"] = {half_width_wanted, relative_error_wanted, down_to, half_width_reached, points: at which it
 // is at once, with half_width_wanted below 0.5, else at each by itself (fragility::HalfWidth), times_wanted, reached, samples: that were
-// counted (not passed over, and taken by the target), drawn, alike, at_most, farthest from what is wanted: {edp, im, capacity, the second axis with its place there, half_width},
-// stays_above: what more samples would not take away where that is most times what is wanted, samples_needed: to be drawn, at most (samples of bins that were passed over are of fewer draws than all), null where
-// only more records would do, rare_cells: of second axes, not wanted, empty_bins: middles of bins of intensity in which nothing fell, and
-// nothing is waited for (one of summary["warnings"] too)}; where it was not reached also one of summary["warnings"], and a line on the
+// counted (not passed over, and taken by the target), drawn, alike, at_most, farthest from what is wanted: {edp, im, capacity, the second
+// axis with its place there, half_width}, stays_above: what more samples would not take away where that is most times what is wanted,
+// samples_needed: to be drawn, at most (samples of bins that were passed over are of fewer draws than all), null where only more records
+// would do, rare_cells: of second axes, not wanted, empty_bins: middles of bins of intensity in which nothing fell, and nothing is waited for (one of summary["warnings"] too)}; where it was not reached also one of summary["warnings"], and a line on the
 // terminal.
 void tell_until(const Study&, const fragility::Result&, const Drawn&, nlohmann::ordered_json& summary);
 

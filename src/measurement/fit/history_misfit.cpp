@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs& jobs)
     : bench_(bench), fit_(fit), judge_(bench, fit.model, fit.x, jobs, fanned_out) {
   constexpr int most_looks = 4;
-  constexpr double much_less = 0.8;
+  constexpr double much_less = 0.8;  // s of some twelve degrees of freedom is known to 1/sqrt(2 nu), a fifth
   look_from(with_stated_numbers(bench, fit), jobs);
   const Pull own = sum_of(of_first(pulls_, static_cast<Index>(fit.x.size())), tau2_);
   fall_as_stated_ = own.against.dot(own.gram.completeOrthogonalDecomposition().solve(own.against));
@@ -35,9 +35,7 @@ HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs
 }
 
 bool HistoryMisfit::leaves_too_much(const AsStated& place) const {
-  double samples = 0;
-  for (const double of_test : judge_.samples()) samples += of_test;
-  return !(place.misfit < adequate * adequate * samples);
+  return !(place.misfit < adequate * adequate * total(judge_.samples()));
 }
 
 // Of the squares of the deviations beside G: s^2, but no sensor is better than it is heard to be.
@@ -66,6 +64,7 @@ void HistoryMisfit::reduce() {
   against_ = all.against.head(p) - coupling_.transpose() * of_deviations_.solve(against_deviations_);
   const MatrixXd inverse = all.gram.completeOrthogonalDecomposition().pseudoInverse();
   errors_ = (weight() * inverse.diagonal().tail(q)).cwiseSqrt() / deviation_in_cube;
+  if (tau2_ == 0 && q == 0) return;
   for (std::size_t i = 0; i < tests_->count(); ++i) {
     const MatrixXd slopes = tests_->slopes(i, shifts_[i]);
     friction_.push_back(slopes.rightCols(1));
@@ -139,16 +138,15 @@ double HistoryMisfit::operator()(const Values& numbers) const {
       }
       const VectorXd against = judge_.against(i, columns, r);
       of_test = against[0];
-      VectorXd of_stated = stated_[i].transpose() * r;
       if (tau2_ == 0) {
-        against_stated += of_stated;
+        if (!stated_.empty()) against_stated += stated_[i].transpose() * r;
         break;
       }
       const double ff = pulls_[i].gram.bottomRightCorner<1, 1>()(0),
                    fr = against[1] - shift * ff;  // at a shift of 0
       of_test += shift * shift * ff - 2 * shift * against[1] - tau2_ * fr * fr / (1 + tau2_ * ff);
       const double likeliest = -tau2_ * fr / (1 + tau2_ * ff);
-      if (turn == 1) against_stated += of_stated + (likeliest - shift) * friction_stated_[i];
+      if (turn == 1) against_stated += stated_[i].transpose() * r + (likeliest - shift) * friction_stated_[i];
       shift = likeliest;
     }
     G += of_test;

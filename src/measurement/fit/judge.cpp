@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace freestand::measurement {
@@ -80,6 +81,8 @@ Eigen::VectorXd change_with_friction(const Bench& bench, ModelSpec model, Values
 }
 
 }  // namespace
+
+double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 struct Judge::Parts {
   std::vector<Eigen::MatrixXd>

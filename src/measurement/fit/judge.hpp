@@ -25,6 +25,8 @@ inline constexpr double more_slow_power = 4;
 
 inline constexpr double every_sample = 1e9;  // no limit
 
+double total(const std::vector<double>&);
+
 class Judge {
  public:
   // Replays of the calibration tests under the reference model with x; the bench's replays are used.

@@ -15,6 +15,9 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
+namespace {
+
+// The numbers' part of a test's pull where the friction of the test is off by a number of variance tau2.
 Pull allowing(const Pull& test, double tau2) {
   const Index p = test.gram.rows() - 1;
   const double share = tau2 / (1 + tau2 * test.gram(p, p));
@@ -22,6 +25,8 @@ Pull allowing(const Pull& test, double tau2) {
   return {test.gram.topLeftCorner(p, p) - share * f * f.transpose(),
           test.against.head(p) - share * test.against[p] * f};
 }
+
+}  // namespace
 
 OwnShifts::OwnShifts(const Bench& bench, const Judge& judge, const AsStated& place)
     : bench_(bench),

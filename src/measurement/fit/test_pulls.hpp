@@ -44,8 +44,7 @@ std::vector<Pull> pulls_of(const OwnShifts&, const std::vector<double>& shifts, 
 // In the first numbers alone, the others being as they are.
 std::vector<Pull> of_first(const std::vector<Pull>&, Eigen::Index count);
 
-// The numbers' part of a test's pull where the friction of the test is off by a number of variance tau2; and of all tests.
-Pull allowing(const Pull& test, double tau2);
+// Of all tests, in the numbers alone, where the friction of each is off by a number of variance tau2.
 Pull sum_of(const std::vector<Pull>&, double tau2);
 
 // Standard deviation tau of ln mu from test to test, where the tests show one; else 0.

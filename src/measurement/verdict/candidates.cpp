@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <tuple>
 
 namespace freestand::measurement {
@@ -26,8 +25,6 @@ bool is_part(const Candidate& part, const Candidate& whole) {
            return std::find(whole.effects.begin(), whole.effects.end(), effect) != whole.effects.end();
          });
 }
-
-double total(const std::vector<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 
 Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b) {
   const auto n = static_cast<double>(a.size());

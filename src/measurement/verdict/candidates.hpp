@@ -5,8 +5,6 @@
 
 namespace freestand::measurement {
 
-double total(const std::vector<double>&);
-
 // Paired difference of the left-out scores, a - b, in the mean, and its standard error.
 Pooled paired_difference(const std::vector<TestError>& a, const std::vector<TestError>& b);
 // Do the numbers that come after the `known` ones lie where they are met in practice?
