@@ -88,6 +88,10 @@ bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
          !shaking.motion->table->vertical.empty();
 }
 
+bool slope_covered(const Specimen& specimen) {
+  return specimen.model == Model::slide_rock || specimen.model == Model::slide;
+}
+
 // False: no kernel covers it. `law`: of friction, where it has one. Of a block that only slides nothing else is set than
 // its kernel asks for.
 bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
@@ -95,13 +99,15 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
   if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1 || settings.slip_by_side) return false;
   if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = speed_law(Laws(specimen))))) return false;
   if (law && too_steep(*law, specimen, shaking)) return false;
-  const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty();
-  if (floor.push_mps2 != 0 || (shaken && (law || !vertical_covered(specimen, shaking)))) return false;
+  const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty(), slopes = floor.push_mps2 != 0;
+  if ((shaken && (law || !vertical_covered(specimen, shaking))) ||
+      (slopes && (law || shaken || !slope_covered(specimen))))
+    return false;
   const bool exact = !law && specimen.model != Model::bouc_wen;
   if (settings.tolerance < (exact ? least_tolerance : least_of_laws) || settings.event_limit < 10000) return false;
   if (specimen.model == Model::bouc_wen) return covered_bouc_wen(specimen, shaking, floor, settings, c);
   if (!admissible(specimen, shaking, floor, settings)) return false;
-  if (specimen.model == Model::slide && !law && !shaken) {
+  if (specimen.model == Model::slide && !law && !shaken && !slopes) {
     c.table = shaking.motion->table.get();
     c.scale = shaking.scale;
     c.vertical_scale = 0;
@@ -109,6 +115,7 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
     c.mu_s = specimen.friction.mu_s;
     c.mu_k = specimen.friction.mu_k;
     c.g = standard_gravity_mps2 * floor.gravity_factor;
+    c.along = 0;
     c.free_vibration_s = settings.free_vibration_s;
     return true;
   }
@@ -125,6 +132,7 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
        rig.mu_s,
        rig.mu_k,
        rig.g,
+       rig.push,
        coulomb ? 1 : rig.impact.factor,
        rig.rest_rotation,
        rig.told_rotation,
@@ -163,7 +171,10 @@ double step_in_own_time(const BatchCase& c) {
 BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c, bool law) {
   const bool shaken = c.vertical_scale != 0;
   if (specimen.model == Model::slide)
-    return shaken ? kernels.slide_rock_shaken : law ? kernels.slide_rock_by_speed : kernels.slide;
+    return shaken         ? kernels.slide_rock_shaken
+           : law          ? kernels.slide_rock_by_speed
+           : c.along != 0 ? kernels.slide_rock
+                          : kernels.slide;
   if (specimen.model == Model::bouc_wen) return kernels.bouc_wen;
   if (specimen.model != Model::rock && specimen.model != Model::slide_rock) return nullptr;
   const double step = step_in_own_time(c);

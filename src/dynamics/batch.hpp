@@ -16,13 +16,14 @@
 
 namespace freestand::dynamics {
 
-// One sample as the kernels read it. Level floor; of vertical shaking and friction by speed at most one.
+// One sample as the kernels read it. Of a slope of the floor, vertical shaking and friction by speed at most one.
 struct BatchCase {
   const MotionTable* table;
   double scale;               // of the record
   double vertical_scale;      // of its vertical channel; 0: it does not shake vertically
   double right, left, h, k2;  // [m], [m2]
-  double mu_s, mu_k, g;
+  double mu_s, mu_k;
+  double g, along;  // gravity across the floor, and along it
   double factor;  // times Housner's rate; 1 where Coulomb's law holds
   double rest_rotation, told_rotation, free_vibration_s;
   BoucWenContact contact;  // model bouc_wen

@@ -98,6 +98,26 @@ template <class Real, int N>
   return (y[0] == Real(0.0)) & (y[1] > least) & surely_positive(over_tau, h);
 }
 
+// The same on (0, h], by the shape: positive at the start, or from there on, and rising all the way, or positive at the end too and bent
+// downwards all the way, over its chord. The end is given away by what round-off may make of it.
+template <class Real, int N>
+[[gnu::always_inline]] inline auto surely_rises_or_arches(const Series<Real, N>& y, const Real& h) {
+  using std::abs;
+  Real least_slope(0.0), most_bend(0.0), end(0.0), size(0.0);
+#pragma GCC unroll 16
+  for (int k = N; k >= 1; --k) {
+    const Real times(static_cast<double>(k)), here = y[k], bound = abs(here);
+    least_slope = least_slope * h + times * (k > 1 ? -bound : here);
+    if (k > 1) most_bend = most_bend * h + times * Real(k - 1.0) * (k > 2 ? bound : here);
+    end = end * h + here;
+    size = size * h + bound;
+  }
+  end = y[0] + end * h;
+  size = abs(y[0]) + size * h;
+  const auto starts = (y[0] > Real(0.0)) | ((y[0] == Real(0.0)) & (y[1] > Real(0.0)));
+  return starts & ((least_slope > Real(0.0)) | ((most_bend < Real(0.0)) & (end > Real(1e-12) * size)));
+}
+
 // |y| <= limit on all of [0, h] beyond doubt.
 template <class Real, int N>
 [[gnu::always_inline]] inline auto surely_within(const Series<Real, N>& y, const Real& h, const Real& limit) {

@@ -47,7 +47,7 @@ struct CornerConstants {
   // and f leaves its chord by |f''|/8 at most; here times 1.5 or 1 + mu, for both forces.
   void bound_curvatures(const BatchCase& c, double size2) {
     const double size = std::sqrt(size2), per = c.table->step_s * c.table->step_s * per_inertia;
-    double most = magnitude(c.scale) * c.table->later_peak[0];
+    double most = magnitude(c.scale) * c.table->later_peak[0] + magnitude(c.along);
     if (c.vertical_scale != 0) most += magnitude(c.vertical_scale) * c.table->later_vertical_peak[0];
     const double field = (c.g + most) * per;
     const double share = (c.mu_s > 0.5 ? 1 + c.mu_s : 1.5) / 8;

@@ -12,7 +12,8 @@ template <class Field>
 struct HopRows {
   using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], side[march_slots];
-  alignas(64) double a[march_slots];                          // unit record, where the lane is
+  alignas(64) double a[march_slots];                          // unit record, where the lane is, and the slope
+  alignas(64) double slope[march_slots];                      // as in SlideRockRows
   alignas(64) double fraction[march_slots];                   // part of the interval that lies ahead
   alignas(64) double limit2[march_slots], push[march_slots];  // four times a squared rotation; |a| of the unit record
   alignas(64) double weight[2][march_slots], tip[2][march_slots], kappa[2][march_slots], kappa_by_a[2][march_slots];
@@ -34,7 +35,7 @@ struct HopRows {
   }
   void retire(int i) { push[i] = -1; }
   auto all() {
-    return std::array{theta,    omega,     side,      a,        fraction,      limit2,        push,    hops,
+    return std::array{theta,    omega,     side,      a, slope,        fraction,      limit2,        push,    hops,
                       impacts,  ended,     weight[0], tip[0],   kappa[0],      kappa_by_a[0], kept[0], told[0],
                       rests[0], weight[1], tip[1],    kappa[1], kappa_by_a[1], kept[1],       told[1], rests[1]};
   }

@@ -184,6 +184,7 @@ class LawMarchOf {
       PackMask positive = surely_positive(y, h_);
       if (witness == Witness::impact) {
         positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
+        if (bits(~positive) & lanes_here) positive = positive | surely_rises_or_arches(y, h_);
         if (turning && !slipping && blows_.possible() && (bits(~positive) & lanes_here)) {
           strikes_ = ~positive & blows_.comes_down(y, h_, reach_);
           positive = positive | strikes_;

@@ -163,13 +163,14 @@ PackMask turns_twice(const Step& y, const Pack& omega_end) {
 // Squared acceleration of the centre of mass: its largest value from the start of the series to x = part, where the
 // state is `end`, if it is above `seen`. `weight`: of the floor's acceleration, in the units of the series. Not `always`:
 // only in lanes where the value at the start comes close to `seen`, whatever the other lanes do. `lift`: vertical acceleration of
-// the floor, in the units of the series.
+// the floor, in the units of the series. `along`: what of its acceleration is gravity along it.
 template <class Step, class Gravity, class Lift = Level>
 [[gnu::always_inline]] inline Pack watch_force(const Step& y, const Pack& weight, const Gravity& gravity,
                                                const Pack& push, const Pack& a, const Pack& rate_a, const RockEnd& end,
-                                               const Pack& part, const Pack& seen, bool always, const Lift& lift = {}) {
+                                               const Pack& part, const Pack& seen, bool always, const Lift& lift = {},
+                                               const Pack& along = Pack(0.0)) {
   const Pack two(2.0), zero(0.0), omega2 = y.omega[0] * y.omega[0];
-  const Pack fx = y.ry[0] * y.omega[1] - y.rx[0] * omega2 + weight * a;
+  const Pack fx = y.ry[0] * y.omega[1] - y.rx[0] * omega2 + weight * (a - along);
   const Pack fy = less_at(y.rx[0] * y.omega[1] + y.ry[0] * omega2, lift, zero);  // g - f_y, as below
   const Pack square = fx * fx + fy * fy;
   const PackMask near = square > Pack(0.999) * seen;
@@ -180,7 +181,7 @@ template <class Step, class Gravity, class Lift = Level>
   const Pack gy = less_rate(rx1 * y.omega[1] + y.rx[0] * alpha1 + ry1 * omega2 + y.ry[0] * cross, lift);
   const Pack slope = two * (fx * gx + fy * gy);
   const Pack alpha = end.rx * value_at(gravity, part) - end.ry * (push * end.a), omega2_end = end.omega * end.omega;
-  const Pack hx = end.ry * alpha - end.rx * omega2_end + weight * end.a,
+  const Pack hx = end.ry * alpha - end.rx * omega2_end + weight * (end.a - along),
              hy = less_at(end.rx * alpha + end.ry * omega2_end, lift, part);
   const Pack square_end = hx * hx + hy * hy;
   const Pack high = xsimd::max(seen, xsimd::max(square, square_end));
@@ -194,7 +195,7 @@ template <class Step, class Gravity, class Lift = Level>
   Pack rx, ry;
   y.arm_at(at, rx, ry);
   const Pack alpha_top = rx * value_at(gravity, at) - ry * (push * a_top), omega2_top = omega * omega;
-  const Pack tx = ry * alpha_top - rx * omega2_top + weight * a_top,
+  const Pack tx = ry * alpha_top - rx * omega2_top + weight * (a_top - along),
              ty = less_at(rx * alpha_top + ry * omega2_top, lift, at);
   return watched(xsimd::max(high, choose(tops, tx * tx + ty * ty, high)));
 }

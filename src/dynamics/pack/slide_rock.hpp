@@ -288,12 +288,11 @@ class SlideRock : public SlideRockSliding {
   // a record at 0.02 s turn by less up to 10 rad/s. A top missed by 1e-4 of the step is low by 1e-8 of its rise.
   template <int K>
   void feel_top(const CornerSeries<K>& y, double x, double hs, Field next, const Forces& begin, const Forces& end) {
-    const auto square = [&](const Forces& f) { return f.fx * f.fx + (f.fy - c_.g) * (f.fy - c_.g); };
-    const double first = square(begin), last = square(end), more = 0.01 * (first + last);
+    const double first = square_of_forces(begin), last = square_of_forces(end), more = 0.01 * (first + last);
     if (larger(first, last) + more < force2_) return;
     double middle = 0.5 * x;
     for (int round = 0; round < 3; ++round) {
-      const double here = square(forces_at(y, middle, hs, next));
+      const double here = square_of_forces(forces_at(y, middle, hs, next));
       force2_ = larger(force2_, here);
       // Top of the parabola through both ends and the point between.
       const double left = (here - first) / middle, right = (last - here) / (x - middle),

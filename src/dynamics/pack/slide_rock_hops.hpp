@@ -85,8 +85,9 @@ class SlideRockHops : public SlideRockLane {
   // 2 omega/slow exp(V/2)/(1 - e) at most.
   bool dies_out() {
     const double omega = magnitude(omega_), square = omega * omega, span = bounds_.row * omega / h_;
-    if (span > longest_row * bounds_.slow || square >= on(side_).told) return false;
-    RowOfHops row{span, square, magnitude(a_), 0, bounds_.slow, 1};
+    const double slow = bounds_.slow - bounds_.slow1 * magnitude(c_.along);
+    if (span > longest_row * slow || square >= on(side_).told) return false;
+    RowOfHops row{span, square, magnitude(a_), 0, slow, 1};
     if (!unnoticed(row)) return false;
     if (m_ < last_ && !(quiet_row(row) && unnoticed(row))) return false;
     if (m_ >= last_) hops_end_ = now() + row_lasts(side_, omega);
@@ -98,7 +99,8 @@ class SlideRockHops : public SlideRockLane {
   }
   // On a still floor.
   double row_lasts(int side, double omega) const {
-    return lasts_in_all(omega, on(side).weight, on(side).kept, on(-side).weight, on(-side).kept);
+    const auto pull = [&](int corner) { return on(corner).pull(c_.along, 0); };
+    return lasts_in_all(omega, pull(side), on(side).kept, pull(-side), on(-side).kept);
   }
 
   // The row of hops that starts on `side`, without slip, is over.
@@ -145,7 +147,8 @@ class SlideRockHops : public SlideRockLane {
     const double share = v / c_.g;
     const double fx = b.fx * (1 + share) + small_share * c_.g, lift = b.lift + v + small_share * c_.g;
     const double grip = (c_.mu_s * (c_.g - lift) - fx) / (b.fx1 + c_.mu_s * b.lift1);
-    return smaller(smaller(grip, b.unseen_push(fx, lift, force2_)), b.tips * (1 - share));
+    const double unseen = b.unseen_push(fx + magnitude(c_.along), lift, force2_);
+    return smaller(smaller(grip, unseen), b.tips * (1 - share));
   }
 
   struct RowOfHops {
@@ -163,12 +166,13 @@ class SlideRockHops : public SlideRockLane {
     const double lifts = magnitude(c_.vertical_scale), *v = shaken_ ? t_.vertical.data() + m_ : nullptr;
     double &push = row.push, &lift = row.lift, &slow = row.slow;
     int end = static_cast<int>(span / slow) + 2;
-    if (m_ + end > last_ || unit * bound_between(t_, m_, m_ + end) > bounds_.tips) return false;
+    const double along = magnitude(c_.along);
+    if (m_ + end > last_ || unit * bound_between(t_, m_, m_ + end) + along > bounds_.tips) return false;
     double variation = 0;
     for (int done = 0; done < end;) {
       done = end;
       const Swing shaking = swing(a, end), lifting = shaken_ ? swing(v, end) : Swing{0, 0};
-      push = unit * shaking.most;
+      push = unit * shaking.most + along;
       lift = lifts * lifting.most;
       const double rest = 1 - lift / c_.g;  // of gravity
       slow = bounds_.slow * rest - bounds_.slow1 * push;
@@ -199,7 +203,8 @@ class SlideRockHops : public SlideRockLane {
   bool unnoticed(double push, double v, double more) const {
     const double fx = bounds_.fx * (1 + v / c_.g) + bounds_.fx1 * push + more;
     const double lift = bounds_.lift + v + bounds_.lift1 * push + more;
-    return fx * fx + lift * lift < force2_ && fx < c_.mu_s * (c_.g - lift);
+    const double ax = fx + magnitude(c_.along);
+    return ax * ax + lift * lift < force2_ && fx < c_.mu_s * (c_.g - lift);
   }
 
   static constexpr int watched_ahead = 32;      // knots

@@ -66,7 +66,8 @@ class SlideRockLane {
     const double alpha = (rx_ * g_ - ry_ * a_) * corner.per_inertia, omega2 = omega_ * omega_;
     const double fx = ry_ * alpha - rx_ * omega2 + a_, lift = (g_ - c_.g) - rx_ * alpha - ry_ * omega2;
     r.grip[i] = (c_.mu_s * (c_.g + lift) - magnitude(fx)) * h2;
-    r.square[i] = (fx * fx + lift * lift) * (h2 * h2);
+    const double ax = fx - c_.along;
+    r.square[i] = (ax * ax + lift * lift) * (h2 * h2);
     r.seen[i] = force2_ * (h2 * h2);
     // Rotations that add less than peak_slip - s xi to the slip; 1 - cos(theta) <= theta^2/2.
     r.room[i] = room_ = larger(peak_slip_ - s * xi_, 0);
@@ -199,7 +200,9 @@ class SlideRockLane {
     const double* record = stride == 1 ? t_.acceleration.data() : t_.both.data();
     const double* row = over ? still_ground : record + stride * m_;
     const int free = over ? patience() - m_ : last_ - m_;
-    r.a[i] = fraction_ == 1 ? *row : a_ / c_.scale;
+    const double slope = c_.along / c_.scale;
+    r.a[i] = fraction_ == 1 ? *row + slope : a_ / c_.scale;
+    if constexpr (requires { r.slope; }) r.slope[i] = slope;
     r.fraction[i] = fraction_;
     r.next[i] = entry_ = row + stride;
     r.stop[i] = row + stride * free;
@@ -242,11 +245,11 @@ class SlideRockLane {
     double alpha, slip, fx, fy;
   };
 
-  // ---- the floor
+  // ---- the floor, its slope included: gravity along it acts as if it were shaken so
   double floor_at(int knot) const {
-    return knot <= last_ ? c_.scale * t_.acceleration[static_cast<std::size_t>(knot)] : 0.0;
+    return knot <= last_ ? c_.scale * t_.acceleration[static_cast<std::size_t>(knot)] + c_.along : c_.along;
   }
-  double next_floor() const { return m_ < last_ ? floor_at(m_ + 1) : 0.0; }
+  double next_floor() const { return m_ < last_ ? floor_at(m_ + 1) : c_.along; }
   // Effective gravity.
   double gravity_at(int knot) const {
     return shaken_ && knot <= last_ ? c_.g + c_.vertical_scale * t_.vertical[static_cast<std::size_t>(knot)] : c_.g;
@@ -260,7 +263,7 @@ class SlideRockLane {
   double now() const { return h_ * (m_ + 1 - fraction_); }
   void stand_at_knot() {
     fraction_ = 1;
-    a_ = m_ < last_ ? floor_at(m_) : 0.0;
+    a_ = m_ < last_ ? floor_at(m_) : c_.along;
     if (shaken_) g_ = m_ < last_ ? gravity_at(m_) : c_.g;
   }
   void next_knot() {
@@ -309,8 +312,11 @@ class SlideRockLane {
 
   // ---- peaks
   void feel(double fx, double fy) {
-    const double lift = fy - c_.g, square = fx * fx + lift * lift;
-    if (square > force2_) force2_ = square;
+    feel_acceleration(fx - c_.along, fy - c_.g);
+  }
+  void feel_acceleration(double ax, double ay) { force2_ = larger(force2_, square_of(ax, ay)); }
+  double square_of_forces(const Forces& f) const { return square_of(f.fx - c_.along, f.fy - c_.g); }
+  static double square_of(double x, double y) { return x * x + y * y;
   }
   double slip_of(double xi, double theta) const {
     const double half = sin_outside(0.5 * theta);
@@ -354,7 +360,7 @@ class SlideRockLane {
   bool sticks_;  // impacts of a corner that sticks make none slip
   Mode mode_ = Mode::rest;
   int m_ = 0, side_ = 0, sigma_ = 0;
-  double fraction_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now
+  double fraction_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now, its slope included
   double theta_ = 0, omega_ = 0, rx_ = 0, ry_ = 0, xi_ = 0, w_ = 0;
   double peak_slip_ = 0, peak_rotation_ = 0, force2_ = 0, path_ = 0, end_ = 0;
   double room_ = 0;      // peak slip less s xi, when it entered a pack

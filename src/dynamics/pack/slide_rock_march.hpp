@@ -69,7 +69,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   // out, stand on the other corner then, at the knot ahead unless something more happens before.
   void strike(Strikes& s, unsigned here) {
     StrikeRows& k = s.rows;
-    const Pack zero(0.0), one(1.0), fraction = load(r_.fraction), a = load(r_.a), a_next = fetch(r_.next),
+    const Pack zero(0.0), one(1.0), fraction = load(r_.fraction), a = load(r_.a), a_next = fetch(r_.next) + load(r_.slope),
                                     change = a_next - a;
     RockSeries<N> y;
     expand<false>(y, 0, fraction, load(r_.omega), Interval(r_.shakes, 0, r_.next).per_inertia(load(r_.gravity)),
@@ -114,8 +114,9 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
 
     const Pack most = xsimd::max(xsimd::abs(floor), xsimd::abs(weight * a_next)), swing = two * height * omega2;
     const Pack hop_fx = load(k.fx) + load(k.fx1) * most + swing, hop_lift = load(k.lift) + load(k.lift1) * most + swing;
+    const Pack along = weight * load(r_.slope), ax = fx - along, hop_ax = hop_fx + xsimd::abs(along);
     const PackMask dies = (load(k.row) * omega <= load(k.slow)) & (omega2 < load(k.last_told)) &
-                          (hop_fx * hop_fx + hop_lift * hop_lift < load(r_.seen)) &
+                          (hop_ax * hop_ax + hop_lift * hop_lift < load(r_.seen)) &
                           (hop_fx < mu * (weight_g - hop_lift));
     const Pack limit2 = Pack(4.0) * xsimd::min(load(k.limit2), turned * turned);
     const PackMask hops = (omega2 * omega2 < limit2 * (pull * pull)) & (xsimd::abs(floor) <= load(k.tips));
@@ -129,7 +130,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     store(r_.a, a);
     store(r_.fraction, ahead);
     store(r_.grip, grip);
-    store(r_.square, fx * fx + lift * lift);
+    store(r_.square, ax * ax + lift * lift);
     store(r_.gravity, gravity);
     store(r_.push, push);
     store(r_.weight, weight);
@@ -145,7 +146,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   Apart march(int i, unsigned here) {
     const Pack zero(0.0), one(1.0), fraction = Whole ? one : load(r_.fraction + i);
     Step y;
-    const Pack a = load(r_.a + i), a_next = fetch(r_.next + i), change = a_next - a;
+    const Pack slope = load(r_.slope + i), a = load(r_.a + i), a_next = fetch(r_.next + i) + slope, change = a_next - a;
     const Pack push = load(r_.push + i), gravity = load(r_.gravity + i), omega0 = load(r_.omega + i);
     const Interval shakes(r_.shakes, i, r_.next + i);
     const auto field = shakes.per_inertia(gravity);
@@ -168,7 +169,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack alpha = rx * at_end(field) - ry * (push * a_next), omega2 = omega * omega;
     const Pack fx = ry * alpha - rx * omega2 + weight * a_next, lift = shakes.lifted(zero) - rx * alpha - ry * omega2;
     const Pack grip0 = load(r_.grip + i), grip = load(r_.mu + i) * (weight_g + lift) - xsimd::abs(fx);
-    const Pack square0 = load(r_.square + i), square = fx * fx + lift * lift;
+    const Pack ax = fx - weight * slope, square0 = load(r_.square + i), square = ax * ax + lift * lift;
     const Pack curvature =
         load(r_.curvature0 + i) +
         (shakes.curvature_with(load(r_.curvature1 + i) * xsimd::abs(change)) + load(r_.curvature2 + i) * rate) * rate;
@@ -242,7 +243,8 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     there.omega = end.omega * fraction;
     const Pack top = watch_force(y, load(r_.weight + i) * fraction2,
                                  shakes.per_inertia(load(r_.gravity + i)) * fraction2, load(r_.push + i) * fraction2, a,
-                                 end.a - a, there, Pack(1.0), seen * left4, true, shakes.lift() * fraction2);
+                                 end.a - a, there, Pack(1.0), seen * left4, true, shakes.lift() * fraction2,
+                                 load(r_.slope + i));
     store(r_.seen + i, choose(feels, Whole ? top : top / left4, seen));
   }
 };

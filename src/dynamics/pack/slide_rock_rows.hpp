@@ -13,7 +13,8 @@ template <class Field>
 struct SlideRockRows {
   using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
-  alignas(64) double a[march_slots];                              // unit record, at the knot
+  alignas(64) double a[march_slots];                              // unit record, at the knot, and the slope
+  alignas(64) double slope[march_slots];                          // gravity along the floor, of the unit record
   alignas(64) double fraction[march_slots];                       // part of the interval that lies ahead
   alignas(64) double grip[march_slots], square[march_slots];      // mu_s f_y - |f_x|, squared acceleration, there
   alignas(64) double gravity[march_slots], push[march_slots];     // g h^2/J, scale h^2/J
@@ -37,9 +38,9 @@ struct SlideRockRows {
     look[i] = seen[i] = 1e300;
   }
   [[gnu::always_inline]] auto all() {
-    return std::array{theta,  omega,      rx,         ry,         a,        fraction, grip,
-                      square, gravity,    push,       weight,     weight_g, mu,       look,
-                      seen,   curvature0, curvature1, curvature2, turned,   room,     half_base};
+    return std::array{theta,  omega,      rx,         ry,         a,        slope, fraction, grip,
+                      square, gravity,    push,       weight,     weight_g, mu,    look,
+                      seen,   curvature0, curvature1, curvature2, turned,   room,  half_base};
   }
 };
 
@@ -48,7 +49,7 @@ struct SlipRows {
   using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double xi[march_slots], w[march_slots];             // of the corner
-  alignas(64) double a[march_slots];                              // unit record, at the knot
+  alignas(64) double a[march_slots], slope[march_slots];          // as in SlideRockRows
   alignas(64) double fraction[march_slots];                       // part of the interval that lies ahead
   alignas(64) double weight[march_slots], weight_g[march_slots];  // scale h^2, g h^2
   alignas(64) double k2[march_slots], size[march_slots];          // gyration radius squared, height of the centre
@@ -63,8 +64,9 @@ struct SlipRows {
 
   void retire(int i) { seen[i] = 1e300; }
   [[gnu::always_inline]] auto all() {
-    return std::array{theta, omega, rx,       ry,    xi,        w,       a,       fraction, weight, weight_g,
-                      k2,    size,  friction, sigma, half_base, lever_x, lever_y, look,     peak,   seen};
+    return std::array{theta,    omega, rx,   ry,       xi,    w,         a,       slope,   fraction, weight,
+                      weight_g, k2,    size, friction, sigma, half_base, lever_x, lever_y, look,     peak,
+                      seen};
   }
 };
 

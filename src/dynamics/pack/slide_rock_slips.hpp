@@ -97,7 +97,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   struct Step {
     const SlipRows<Gravity, Friction>& r;
     const int i;
-    const Pack fraction, fraction2, omega0, w0, a, a_next, weight_g, k2, friction, sigma;
+    const Pack fraction, fraction2, omega0, w0, slope, a, a_next, weight_g, k2, friction, sigma;
     const typename Gravity::Interval shakes;
     typename Friction::template Factor<N> factor;
     CornerSeries<N, Pack> y;
@@ -110,8 +110,9 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
           fraction2(fraction * fraction),
           omega0(load(r.omega + i)),
           w0(load(r.w + i)),
+          slope(load(r.slope + i)),
           a(load(r.a + i)),
-          a_next(fetch(r.next + i)),
+          a_next(fetch(r.next + i) + slope),
           weight_g(load(r.weight_g + i)),
           k2(load(r.k2 + i)),
           friction(load(r.friction + i)),
@@ -189,8 +190,10 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
         d_rate = d_rate + x * mu_rate * y1;
         change = mu * mu_rate * f * f * (d * d / k2);
       }
-      const Pack slope = (n_rate * d - n * d_rate) * (mu * mu * f + lift) + change;
-      return {(mu * mu * f * f + lift * lift) / (fraction2 * fraction2), slope, (n > zero) & (d > Pack(0.05) * k2)};
+      const Pack along = load(r.weight + i) * fraction2 * slope;  // the block's acceleration is -(mu f + along)
+      const Pack rises = (n_rate * d - n * d_rate) * (mu * mu * f + lift + mu * along) + change;
+      const Pack square = mu * mu * f * f + lift * lift + (two * mu * f + along) * along;
+      return {square / (fraction2 * fraction2), rises, (n > zero) & (d > Pack(0.05) * k2)};
     }
     // The largest square, where its slope is positive at the start and negative at x.
     Pack top_between(const Touch& first, const Touch& last, const Pack& end) const {

@@ -29,18 +29,19 @@ class SlideRockTrajectory : public SlideRockHops {
   // ---- rest
   void rest() {
     const double size = magnitude(c_.scale), low = larger(least_gravity(m_), 0);
-    const double least = low > 0 ? smaller(smaller(quiet(1, low), quiet(-1, low)) / size, 1e300) : -1;
+    const double least =
+        low > 0 ? smaller((smaller(quiet(1, low), quiet(-1, low)) - magnitude(c_.along)) / size, 1e300) : -1;
     if (!(g_ > 0)) return decline();
     if (m_ < last_) {
       for (int j = m_ + 1;; ++j) {
         j = next_loud(j, least);
         if (j > last_) break;
-        const double after = c_.scale * t_.acceleration[static_cast<std::size_t>(j)], g = gravity_at(j);
+        const double after = floor_at(j), g = gravity_at(j);
         if (!(g > 0)) return decline();
         const double limit = quiet(after, g), way = after > 0 ? 1 : -1;
         if (!(magnitude(after) > limit)) continue;
         feel_rest(j);
-        const double before = c_.scale * t_.acceleration[static_cast<std::size_t>(j) - 1], g_before = gravity_at(j - 1);
+        const double before = floor_at(j - 1), g_before = gravity_at(j - 1);
         const double limit_before = quiet(after, g_before);
         const double part = (way * limit_before - before) / ((after - before) - way * (limit - limit_before));
         fraction_ = j - 1 == m_ ? smaller(fraction_, 1 - part) : 1 - part;
@@ -76,7 +77,7 @@ class SlideRockTrajectory : public SlideRockHops {
       force2_ = peak_of_both(t_, m_ + 1, end, c_.scale, c_.vertical_scale, force2_);
     else if (const double later = c_.scale * t_.later_peak[static_cast<std::size_t>((m_ + 1) / table_run)];
              later * later > force2_)
-      feel(c_.scale * (end == t_.knots ? peak_from(t_, m_ + 1) : peak_between(t_, m_ + 1, end)), c_.g);
+      feel_acceleration(c_.scale * (end == t_.knots ? peak_from(t_, m_ + 1) : peak_between(t_, m_ + 1, end)), 0);
   }
 
   // ---- sliding under a constant friction, exact
@@ -88,10 +89,10 @@ class SlideRockTrajectory : public SlideRockHops {
     double p[3] = {sigma_ * w_, -(sigma_ * a_ + friction) * hs, -0.5 * (sigma_ * (a1 - a_) + c_.mu_k * (g1 - g_)) * hs};
     if (p[0] == 0 && p[1] < 0 && p[1] > -slip_zero * c_.g * hs) p[1] = 0;
     const double x = first_fall<2>(p, 1.0), part = x < 1 ? x : 1.0;
-    feel(friction, g_);
+    feel(-sigma_ * friction, g_);
     if (shaken_) {
       const double g = g_ + (g1 - g_) * part;
-      feel(c_.mu_k * g, g);
+      feel(-sigma_ * c_.mu_k * g, g);
     }
     const double moved = sigma_ * hs * part * (p[0] + part * (p[1] * 0.5 + part * p[2] * (1.0 / 3)));
     xi_ += moved;
@@ -107,29 +108,29 @@ class SlideRockTrajectory : public SlideRockHops {
 
   // To the last knot up to which it is certain that the slip goes on (dynamics/pack/slide_rock_search.hpp).
   void slide_past_knots() {
-    const double friction = sigma_ * c_.mu_k * c_.g;
+    const double slows = sigma_ * c_.mu_k * c_.g + c_.along, each = sigma_ * slows * h_;
     if (m_ >= last_) {
-      const int knots = static_cast<int>(smaller(magnitude(w_ / (friction * h_)) - 1, patience() - m_));
-      if (knots > 0) slide_to(m_ + knots, 0, 0, knots * h_, friction);
+      const double ahead = patience() - m_, knots = each > 0 ? smaller(sigma_ * w_ / each - 1, ahead) : ahead;
+      if (const int whole = static_cast<int>(knots); whole > 0) slide_to(m_ + whole, 0, 0, whole * h_, slows);
       return;
     }
     const auto here = static_cast<std::size_t>(m_);
     const double way = c_.scale > 0 ? sigma_ : -sigma_;
-    const int knot = first_doubt(t_, m_, w_ / c_.scale, way, magnitude(friction * h_ / c_.scale)) - 1;
+    const int knot = first_doubt(t_, m_, w_ / c_.scale, way, each / magnitude(c_.scale)) - 1;
     if (knot <= m_) return;
     const auto there = static_cast<std::size_t>(knot);
     const double time = (knot - m_) * h_, speed = t_.velocity[there] - t_.velocity[here];
     const double moved = t_.displacement[there] - t_.displacement[here] - t_.velocity[here] * time;
-    slide_to(knot, c_.scale * speed, c_.scale * moved, time, friction);
+    slide_to(knot, c_.scale * speed, c_.scale * moved, time, slows);
   }
-  // speed, moved: of the floor since.
-  void slide_to(int knot, double speed, double moved, double time, double friction) {
-    const double slid = time * (w_ - 0.5 * friction * time) - moved;
-    feel(friction, c_.g);
+  // speed, moved: of the shaken floor since. slows: what friction and the slope take off the speed [m/s2].
+  void slide_to(int knot, double speed, double moved, double time, double slows) {
+    const double slid = time * (w_ - 0.5 * slows * time) - moved;
+    feel(-sigma_ * c_.mu_k * c_.g, c_.g);
     xi_ += slid;
     path_ += magnitude(slid);
     see_slip(xi_);
-    w_ -= speed + friction * time;
+    w_ -= speed + slows * time;
     m_ = knot - 1;
     next_knot();
   }
