@@ -26,11 +26,19 @@ else
 fi
 mpi_environment
 
-# mpirun passes SIGUSR1 on to the ranks, which end with 75 within ten seconds. SIGTERM, and the SIGINT that a terminal sends to all
-# that it started, would end mpirun with 1: it runs in a session of its own, and hears what this script hears.
+# mpirun passes SIGUSR1 on to the ranks that it has started, which end with 75 within ten seconds; while it starts them it loses what it is
+# sent, so that it is sent until all have ended. SIGTERM, and the SIGINT that a terminal sends to all that it started, would end mpirun with
+# 1: it runs in a session of its own, and hears what this script hears.
 setsid mpirun "${options[@]}" "$freestand" run "$study" -o "$folder" "${resume[@]}" &
 run=$!
-trap 'kill -USR1 "$run" 2>/dev/null || true' TERM INT USR1
+asked=
+# shellcheck disable=SC2317  # by the trap
+ask_to_stop() {
+  [ -z "$asked" ] || return 0
+  asked=yes
+  while kill -USR1 "$run" 2>/dev/null; do sleep 1; done &
+}
+trap ask_to_stop TERM INT USR1
 wait_for "$run"
 if [ "$code" = 75 ]; then
   say "stopped early; to go on:$(printf ' %q' "$0" "$@")"

@@ -13,7 +13,7 @@ const char* name(Mode mode);
 
 // How a sample ended. Failure is data: counted and reported, never thrown, never averaged in silently.
 enum class Outcome : int {
-  at_rest,     // never moved
+  at_rest,     // never moved; on legs that give way: no leg let go and no foot slipped, however the block swayed
   moved,       // moved and stood
   overturned,  // |theta| passed pi/2
   painleve,    // no consistent motion: friction too high for a slipping corner
@@ -60,7 +60,8 @@ struct Response {
   int wall_hits = 0;               // blows of walls, or of a neighbour
   double wall_speed_mps = 0;       // largest speed of an edge at such a blow, towards what it strikes
   int events = 0;                  // all mode changes and impacts
-  double end_time_s = 0;           // when it is at rest for good (not before the motion ends; after the last of its endless hops), or overturned
+  double end_time_s =
+      0;  // when it is at rest for good (not before the motion ends; after the last of its endless hops), or overturned
 };
 
 // One change of mode, for tests, histories and error reports.

@@ -96,7 +96,7 @@ void add_catalogue(CLI::App& parser, Work& work) {
                  "check the catalogue and the records that it names, list its entries, and stop");
   verb->add_flag("--redo", options->redo, "compute entries anew whose study is another now");
   verb->add_flag("--resume", options->resume, "go on where a run was stopped; this is done without it too");
-  verb->add_flag("--quiet", options->quiet, "no progress");
+  verb->add_flag("--quiet", options->quiet, "no progress, no summary");
   verb->callback([options, &work] { work = [options](const Context& context) { return build(context, *options); }; });
 }
 

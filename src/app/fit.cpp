@@ -102,7 +102,7 @@ void add_fit(CLI::App& parser, Work& work) {
   verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder of -o")
       ->needs(output);
   verb->add_flag("--rank", options->rank, "print the whole ranking of the intensities, as ranking.csv holds it");
-  verb->add_flag("--quiet", options->quiet, "no progress");
+  verb->add_flag("--quiet", options->quiet, "no progress, no summary, no warnings");
   verb->callback([options, &work] { work = [options](const Context& context) { return run(context, *options); }; });
 }
 

@@ -55,16 +55,16 @@ Exit check(const Context& context, const RunOptions& options) {
   return Exit::done;
 }
 
-// A full disk, or what else has to be cured, costs no finished block.
+// A full disk, or what else has to be cured, costs nothing that was written before.
 study::SweepSummary sweep(const Context& context, const study::Study& study, const study::SweepOptions& options,
                           study::RunFolder& folder) {
   try {
     return study::sweep(context.world, study, options, folder);
-  } catch (const parallel::SharedError&) {
-    throw;
   } catch (const Error& error) {
     if (error.exit() != Exit::cure) throw;
-    throw Error(std::string(error.what()) + "; go on with --resume", Exit::cure);
+    const std::string text = std::string(error.what()) + "; go on with --resume";
+    if (dynamic_cast<const parallel::SharedError*>(&error)) throw parallel::SharedError(text, Exit::cure);
+    throw Error(text, Exit::cure);
   }
 }
 
@@ -100,7 +100,7 @@ void add(CLI::App& parser, Work& work, const std::string& name, const std::strin
       "numbers that were fitted to measurements at their best values, not as the joint draws of fitted.yaml");
   auto* overwrite = verb->add_flag("--overwrite", options->overwrite, "replace results that are already in the folder");
   verb->add_flag("--resume", options->resume, "go on with a sweep that was stopped or killed")->excludes(overwrite);
-  verb->add_flag("--quiet", options->quiet, "no progress");
+  verb->add_flag("--quiet", options->quiet, "no progress, no summary, no warnings");
   verb->callback([options, with_fit, &work] {
     work = [options, with_fit](const Context& context) { return sweep_and_fit(context, *options, with_fit); };
   });

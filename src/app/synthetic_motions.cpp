@@ -6,6 +6,7 @@
 #include <freestand/error.hpp>
 #include <vector>
 
+#include "base/folder.hpp"
 #include "io/output_folder.hpp"
 #include "motion/record_figures.hpp"
 #include "study/read_synthetic.hpp"
@@ -48,7 +49,7 @@ void show_synthetic(const SyntheticOptions& options) {
   const study::SyntheticPart part = study::read_synthetic_file(options.file);
   check(options, part);
   const bool one = options.number >= 0;
-  if (!one && !options.convert.empty()) fs::create_directories(options.convert);
+  if (!one && !options.convert.empty()) make_folder(options.convert);
   std::vector<motion::ToldRecord> told;
   for (int n = one ? options.number : 0; n < (one ? options.number + 1 : part.count); ++n) {
     const auto number = static_cast<std::uint64_t>(n);

@@ -24,13 +24,15 @@ struct Advice {
 Advice advice(int error_number) {
   switch (error_number) {
     case ENOSPC:
-      return {"free some space and start again; a sweep keeps its finished blocks", Exit::cure};
+      return {"free some space and start again; what a sweep has written of its work is kept", Exit::cure};
     case EDQUOT:
-      return {"free some of your quota and start again; a sweep keeps its finished blocks", Exit::cure};
+      return {"free some of your quota and start again; what a sweep has written of its work is kept", Exit::cure};
     case EFBIG:
-      return {"raise the file size limit (ulimit -f) and start again; a sweep keeps its finished blocks", Exit::cure};
+      return {"raise the file size limit (ulimit -f) and start again; what a sweep has written of its work is kept",
+              Exit::cure};
     case EIO:
-      return {"check the disk or the network file system and start again; a sweep keeps its finished blocks", Exit::cure};
+      return {"check the disk or the network file system and start again; what a sweep has written of its work is kept",
+              Exit::cure};
     case EROFS:
       return {"have it mounted for writing and start again, or choose another folder", Exit::cure};
     case EACCES:
@@ -38,12 +40,12 @@ Advice advice(int error_number) {
       return {"choose a folder that you may write to, or change its permissions", Exit::usage};
     case EINTR:
     case ESTALE:
-      return {"start again; a sweep keeps its finished blocks", Exit::resumable};
+      return {"start again; what a sweep has written of its work is kept", Exit::resumable};
     case ENOENT:
     case ENOTDIR:
       return {"check the path", Exit::usage};
     default:
-      return {"check the path and the disk and start again; a sweep keeps its finished blocks", Exit::cure};
+      return {"check the path and the disk and start again; what a sweep has written of its work is kept", Exit::cure};
   }
 }
 

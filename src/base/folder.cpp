@@ -16,6 +16,12 @@ std::vector<fs::path> paths_in(const fs::path& folder) {
   return paths;
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw file_error("make folder", folder, error.value());
+}
+
 void remove_file(const fs::path& path) {
   std::error_code error;
   fs::remove(path, error);

@@ -9,6 +9,9 @@ namespace freestand {
 // In no order; nothing where there is no such folder.
 std::vector<std::filesystem::path> paths_in(const std::filesystem::path& folder);
 
+// With those above it; no error where it is there.
+void make_folder(const std::filesystem::path& folder);
+
 // No error where it is not there.
 void remove_file(const std::filesystem::path& path);
 

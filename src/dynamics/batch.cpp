@@ -52,7 +52,7 @@ const BatchKernels* batch_kernels() {
 
 namespace {
 
-// That the packs keep; where friction follows the speed, and of Bouc-Wen's contact.
+// That the packs keep; where friction follows a law, and of Bouc-Wen's contact.
 constexpr double least_tolerance = 1e-13, least_of_laws = 1e-10;
 constexpr double endless_base = 1e6;  // half of it, times the height: a block that only slides
 
@@ -75,12 +75,12 @@ bool covered_bouc_wen(const Specimen& specimen, const Shaking& shaking, const Fl
 // of their steps too.
 constexpr double largest_exponent = 30;
 
-bool too_steep(const SpeedLaw& law, const Specimen& specimen, const Shaking& shaking) {
+bool too_steep(const SlipLaw& law, const Specimen& specimen, const Shaking& shaking) {
   const MotionTable& t = *shaking.motion->table;
   const double push = std::abs(shaking.scale) * t.later_peak[0];
   // In a step the slip speed changes by the floor, by friction, and by as much again where the block turns.
   const double change = 2 * t.step_s * (push + (1 + specimen.friction.mu_s) * standard_gravity_mps2);
-  return steepest_exponent(law, change) > largest_exponent;
+  return steepest_exponent(law, change, t.step_s) > largest_exponent;
 }
 
 bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
@@ -95,11 +95,12 @@ bool slope_covered(const Specimen& specimen) {
 // False: no kernel covers it. `law`: of friction, where it has one. Of a block that only slides nothing else is set than
 // its kernel asks for.
 bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
-             BatchCase& c, std::optional<SpeedLaw>& law) {
+             BatchCase& c, std::optional<SlipLaw>& law) {
   if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1 || settings.slip_by_side) return false;
-  if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = speed_law(Laws(specimen))))) return false;
+  if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = slip_law(Laws(specimen))))) return false;
   if (law && too_steep(*law, specimen, shaking)) return false;
-  const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty(), slopes = floor.push_mps2 != 0;
+  const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty(),
+             slopes = floor.push_mps2 != 0;
   if ((shaken && (law || !vertical_covered(specimen, shaking))) ||
       (slopes && (law || shaken || !slope_covered(specimen))))
     return false;
@@ -142,13 +143,12 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
        coulomb,
        nullptr};
   if (specimen.model == Model::slide) c.left = c.right = endless_base * c.h;
-  if (law) c.mu_s *= friction_factor(*law, 0);
   return true;
 }
 
 // The same for a sample as it was given. Effects change a copy of it first.
 bool covered(const Specimen& specimen, const Shaking& shaking, const Settings& settings, BatchCase& c,
-             std::optional<SpeedLaw>& law) {
+             std::optional<SlipLaw>& law) {
   if (specimen.effects.empty()) return covered(specimen, shaking, {}, settings, c, law);
   const Setup setup = set_up(specimen, shaking);
   return covered(setup.specimen, setup.shaking, setup.floor, settings, c, law);
@@ -172,7 +172,7 @@ BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, con
   const bool shaken = c.vertical_scale != 0;
   if (specimen.model == Model::slide)
     return shaken         ? kernels.slide_rock_shaken
-           : law          ? kernels.slide_rock_by_speed
+           : law          ? kernels.slide_rock_by_slip
            : c.along != 0 ? kernels.slide_rock
                           : kernels.slide;
   if (specimen.model == Model::bouc_wen) return kernels.bouc_wen;
@@ -182,7 +182,7 @@ BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, con
   const bool fine = step < longest_step(fine_step, 7, c.tolerance);
   if (specimen.model == Model::rock) return fine ? kernels.rock : kernels.rock_coarse;
   if (shaken) return fine ? kernels.slide_rock_shaken : kernels.slide_rock_shaken_coarse;
-  if (law) return fine ? kernels.slide_rock_by_speed : kernels.slide_rock_by_speed_coarse;
+  if (law) return fine ? kernels.slide_rock_by_slip : kernels.slide_rock_by_slip_coarse;
   return fine ? kernels.slide_rock : kernels.slide_rock_coarse;
 }
 
@@ -195,7 +195,7 @@ Response without_fall(Response response, const BatchCase& c) {
 struct Queue {
   BatchKernel kernel = nullptr;
   std::vector<BatchCase> cases = {};
-  std::deque<SpeedLaw> laws = {};    // of the cases, one each or none at all
+  std::deque<SlipLaw> laws = {};     // of the cases, one each or none at all
   std::vector<std::size_t> at = {};  // which sample each is
 };
 
@@ -203,7 +203,7 @@ class Queues {
  public:
   explicit Queues(std::size_t capacity) : capacity_(capacity) {}
 
-  void add(BatchKernel kernel, const BatchCase& c, const std::optional<SpeedLaw>& law, std::size_t sample) {
+  void add(BatchKernel kernel, const BatchCase& c, const std::optional<SlipLaw>& law, std::size_t sample) {
     Queue& queue = find(kernel, law);
     queue.cases.push_back(c);
     queue.at.push_back(sample);
@@ -230,7 +230,7 @@ class Queues {
 
  private:
   // The queue of those that go through the kernel together.
-  Queue& find(BatchKernel kernel, const std::optional<SpeedLaw>& law) {
+  Queue& find(BatchKernel kernel, const std::optional<SlipLaw>& law) {
     for (Queue& queue : queues_)
       if (queue.kernel == kernel && (!law || queue.laws.empty() || same_shape(queue.laws.front(), *law))) return queue;
     Queue& queue = queues_.emplace_back(Queue{kernel});
@@ -275,7 +275,7 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
   Queues queues(std::min(group, specimens.size()));
   std::vector<std::size_t> single, alone, order;
   BatchCase c{};
-  std::optional<SpeedLaw> law;
+  std::optional<SlipLaw> law;
   for (std::size_t first = 0; first < specimens.size(); first += group) {
     sort_by_record(shakings.subspan(first, std::min(group, specimens.size() - first)), order);
     for (const std::size_t place : order) {

@@ -12,11 +12,11 @@
 #include "dynamics/bouc_wen_contact.hpp"
 #include "dynamics/law_rows.hpp"
 #include "dynamics/plane_march.hpp"
-#include "dynamics/speed_law.hpp"
+#include "dynamics/slip_law.hpp"
 
 namespace freestand::dynamics {
 
-// One sample as the kernels read it. Of a slope of the floor, vertical shaking and friction by speed at most one.
+// One sample as the kernels read it. Of a slope of the floor, vertical shaking and a law of friction at most one.
 struct BatchCase {
   const MotionTable* table;
   double scale;               // of the record
@@ -24,12 +24,12 @@ struct BatchCase {
   double right, left, h, k2;  // [m], [m2]
   double mu_s, mu_k;
   double g, along;  // gravity across the floor, and along it
-  double factor;  // times Housner's rate; 1 where Coulomb's law holds
+  double factor;    // times Housner's rate; 1 where Coulomb's law holds
   double rest_rotation, told_rotation, free_vibration_s;
   BoucWenContact contact;  // model bouc_wen
   double tolerance;
-  bool coulomb;         // impact law
-  const SpeedLaw* law;  // of friction; null: it is constant. None with Coulomb's impacts
+  bool coulomb;        // impact law
+  const SlipLaw* law;  // of friction, times mu_s and mu_k; null: there is none. None with Coulomb's impacts
 };
 
 // Computes `count` samples; sets declined[i] where sample i needs the text for single samples.
@@ -40,8 +40,8 @@ struct BatchKernels {
   BatchKernel slide;
   BatchKernel rock, rock_coarse, slide_rock,
       slide_rock_coarse;  // steps short against the block's own time, and longer ones
-  // Friction follows the slip speed; all cases of a call have laws of one shape.
-  BatchKernel slide_rock_by_speed, slide_rock_by_speed_coarse;
+  // Friction follows the slip; all cases of a call have laws of one shape.
+  BatchKernel slide_rock_by_slip, slide_rock_by_slip_coarse;
   BatchKernel slide_rock_shaken, slide_rock_shaken_coarse;  // the floor shakes vertically
   BatchKernel bouc_wen;                                     // with kappa = 0
   const LawMarch (*under_laws)[2], (*on_pulses)[2];         // [turns][slips]

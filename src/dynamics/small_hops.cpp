@@ -71,14 +71,18 @@ bool Integration::feel_two_hops(State hop, HopRow& row) {
   return true;
 }
 
-// False: it does not come down. Accelerations stay as they are until a slip ends or turns.
+// False: it does not come down. Accelerations stay as they are until a slip ends or turns: on a floor that does not change.
 bool Integration::feel_hop(State& hop, HopRow& row) {
   constexpr int pieces = 3;  // a slip ends, and turns
+  Floor<double, 2> steady{Series<double, 2>::zero(), Series<double, 2>::zero()};
+  const Floor<double, 2> here = cursor.local<2>();
+  steady.a[0] = here.a[0];
+  steady.g[0] = here.g[0];
   for (int i = 0; i < pieces; ++i) {
     row.stops = row.stops || slip_speed(rig, hop) == 0;
     if (!choose_mode(rig, cursor, hop) || hop.pivot == 0) return false;
     bool slips_on = true;
-    const bool goes_on = with_contact_arc<2>(rig, hop, cursor.time(), cursor.local<2>(), [&](const auto& arc) {
+    const bool goes_on = with_contact_arc<2>(rig, hop, cursor.time(), steady, [&](const auto& arc) {
       if (row.felt) peaks.observe(rig, hop, arc, 0);
       const double fall = fall_time(hop.pivot, arc.theta), stops = -slip_speed(arc)[0] / slip_speed(arc)[1];
       slips_on = hop.sigma == 0 || !(stops > 0 && stops < fall);

@@ -70,8 +70,9 @@ Error failure(const std::string& file, const std::string& what, Doing doing) {
     return Error(fmt::format("cannot read {} ({}): check the path and its permissions", file,
                              std::generic_category().message(reasons.error_number)),
                  Exit::data);
-  const char* advice = doing == Doing::writing ? "check the disk and start again; a sweep keeps its finished blocks"
-                                               : "make the file again, or name one that freestand has written";
+  const char* advice = doing == Doing::writing
+                           ? "check the disk and start again; what a sweep has written of its work is kept"
+                           : "make the file again, or name one that freestand has written";
   return Error(fmt::format("cannot {} {} ({}{}{}): {}", verb, file, what, reasons.innermost.empty() ? "" : ": ",
                            reasons.innermost, advice),
                doing == Doing::writing ? Exit::cure : Exit::data);

@@ -30,10 +30,6 @@ constexpr const char* other_results[] = {"ranking.csv",      "study.yaml",      
                                          "sensitivity.csv",  "sensitivity.json"};
 constexpr const char *certificate = "certificate.json", *database = "database.h5", *figures_name = "figures";
 
-void check(const std::error_code& error, const char* action, const fs::path& path) {
-  if (error) throw file_error(action, path, error.value());
-}
-
 bool is_used(const fs::path& folder) {
   const std::vector<fs::path> all = paths_in(folder);
   return std::any_of(all.begin(), all.end(), [](const fs::path& path) {
@@ -131,8 +127,7 @@ void make_output_folder(const fs::path& folder, Existing existing, const Command
   std::error_code error;
   if (fs::exists(folder, error) && !fs::is_directory(folder, error))
     throw Error(fmt::format("{} cannot take results (it is a file): name a folder", folder.string()));
-  fs::create_directories(folder, error);
-  check(error, "make folder", folder);
+  make_folder(folder);
   if (existing == Existing::refuse && is_used(folder)) throw Error(used_text(folder));
   refuse_others(folder, files.writes);
   if (existing != Existing::overwrite) return;

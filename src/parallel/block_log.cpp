@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "base/durable_file.hpp"
+#include "base/folder.hpp"
 #include "base/open_file.hpp"
 #include "parallel/progress.hpp"
 #include "parallel/run_files.hpp"
@@ -82,9 +83,7 @@ BlockLog::BlockLog(fs::path folder, std::string fingerprint, std::uint32_t kerne
   if (fingerprint_.empty() || fingerprint_.size() > sizeof(Header::fingerprint))
     throw Error(
         fmt::format("study fingerprint \"{}\" cannot be stored (1 to 64 characters): shorten it", fingerprint_));
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw file_error("make folder", folder_, error.value());
+  make_folder(folder_);
 }
 
 fs::path BlockLog::log(std::int64_t run, std::int64_t node) const { return run_file(folder_, run, node, "log"); }

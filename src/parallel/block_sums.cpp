@@ -121,9 +121,7 @@ BlockSums::BlockSums(fs::path folder, std::string fingerprint, std::uint32_t ker
   if (fingerprint_.size() > sizeof(SumsHeader::fingerprint))
     throw Error(
         fmt::format("study fingerprint \"{}\" cannot be stored (64 characters at most): shorten it", fingerprint_));
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) throw file_error("make folder", folder_, error.value());
+  make_folder(folder_);
 }
 
 std::size_t BlockSums::bytes() const {

@@ -180,7 +180,8 @@ int end_run(const Communicator& world, const std::string& text, int exit_code, b
     return exit_code;
   }
   // The lowest rank that failed speaks; it ends the others while they wait for their turn.
-  const auto turn = std::chrono::milliseconds(world.is_root() ? 0 : std::min(300 + 20 * world.rank(), 3000));
+  // An abort takes a while to reach them: on a busy machine more than a third of a second.
+  const auto turn = std::chrono::milliseconds(world.is_root() ? 0 : std::min(1500 + 20 * world.rank(), 4000));
   const auto start = std::chrono::steady_clock::now();
   const bool stopped_before = stop_requested();
   while (std::chrono::steady_clock::now() - start < turn) {

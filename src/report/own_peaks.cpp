@@ -7,6 +7,7 @@
 #include <cmath>
 #include <freestand/error.hpp>
 
+#include "base/shown_text.hpp"
 #include "base/units.hpp"
 #include "report/peaks.hpp"
 #include "report/printed_table.hpp"
@@ -45,11 +46,14 @@ class OwnTable {
   // All numbers of a column, each above 0; lines that are not are gathered.
   std::vector<double> positive(const std::string& column) {
     used_.push_back(column);
-    const std::vector<double> values = table_.numbers(column);
-    for (std::size_t i = 0; i < values.size(); ++i)
+    const std::vector<std::string> cells = table_.texts(column);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      values.push_back(number_in(cells[i]).value_or(0));
       if (!(values[i] > 0))
-        wrong(i, fmt::format("{} is {} (it is above 0): correct the line, or leave it out", column,
-                             std::isnan(values[i]) ? "empty" : fmt::format("{}", values[i])));
+        wrong(i, fmt::format("{} is {} (it is a number above 0): correct the line, or leave it out", column,
+                             cells[i].empty() ? "empty" : shown(cells[i])));
+    }
     return values;
   }
 
@@ -163,6 +167,11 @@ std::vector<std::pair<Entry, Item>> own_peaks(const std::filesystem::path& file,
   std::vector<std::pair<Entry, Item>> found;
   for (const std::string& column : columns) {
     const Peaks peaks = peaks_of(table, column);
+    if (peaks.im.size() < least_peaks)
+      throw Error(
+          fmt::format("{}: a line and its bins need {} measured peaks (there are {}): give more tests in one table",
+                      file.string(), least_peaks, peaks.im.size()),
+          Exit::data);
     const std::string name = columns.size() == 1 ? "own" : "own_" + column;
     found.push_back({Entry{.name = name,
                            .place = file.filename().string(),

@@ -157,8 +157,8 @@ double demand(double peak_slip_m, double period_s, double pta_g) {
 
 PeaksFit fit_peaks(const Peaks& peaks, const Jobs& jobs) {
   const std::size_t n = peaks.im.size();
-  if (n < 2 * points_per_bin)
-    throw Error("a line and its bins need " + std::to_string(2 * points_per_bin) + " measured peaks (there are " +
+  if (n < least_peaks)
+    throw Error("a line and its bins need " + std::to_string(least_peaks) + " measured peaks (there are " +
                     std::to_string(n) + "): give more tests in one table",
                 Exit::data);
   PeaksFit fit;

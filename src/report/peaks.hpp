@@ -50,5 +50,6 @@ std::vector<Sheet> sheets(const std::string& name, const Peaks&, const PeaksFit&
 // Repeats of the null's simulation: the standard error of a p value near 0.05 is 0.0015.
 inline constexpr int null_repeats = 20000;
 inline constexpr std::size_t points_per_bin = 7;  // at least: the report's tables then have 4 and 3 bins
+inline constexpr std::size_t least_peaks = 2 * points_per_bin;
 
 }  // namespace freestand::report

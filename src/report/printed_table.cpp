@@ -42,18 +42,22 @@ std::vector<std::string> PrintedTable::texts(const std::string& column) const {
   return found;
 }
 
+std::optional<double> number_in(const std::string& cell) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value)) return {};
+  return value;
+}
+
 std::vector<double> PrintedTable::numbers(const std::string& column) const {
   const std::size_t c = at(column);
   std::vector<double> found;
   for (const CsvTable::Row& row : table_.rows) {
     const std::string& cell = row.cells[c];
-    double value = std::numeric_limits<double>::quiet_NaN();
-    if (!cell.empty()) {
-      const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (error != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
-        throw Error(table_.at(row) + column + " is " + shown(cell) + " (no number): correct it", Exit::data);
-    }
-    found.push_back(value);
+    const std::optional<double> value = number_in(cell);
+    if (!value && !cell.empty())
+      throw Error(table_.at(row) + column + " is " + shown(cell) + " (no number): correct it", Exit::data);
+    found.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
   }
   return found;
 }

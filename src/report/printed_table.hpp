@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,9 @@
 #include "report/rounding.hpp"
 
 namespace freestand::report {
+
+// A finite number and nothing else.
+std::optional<double> number_in(const std::string& cell);
 
 class PrintedTable {
  public:

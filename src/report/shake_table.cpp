@@ -43,15 +43,17 @@ double fitted_slip_m(const Test& test, double mu) { return std::isnan(mu) ? mu :
 // ln of predicted over measured; one that does not slide counts as a slip of a micrometre.
 double ln_ratio(const Test& test, double mu) { return std::log(std::max(slip_m(test, mu), 1e-6) / test.measured_m); }
 
+constexpr double least_friction = 0.02;  // that is tried; the report's lowest is 0.13
+
 // Least squares of ln_ratio: the best of a grid, then narrowed in on between its neighbours. Not known where the least of the grid is
-// best: then no friction makes the slips as large as they were.
+// best.
 double fitted_friction(const std::vector<Test>& tests) {
   const auto misfit = [&](double ln_mu) {
     double sum = 0;
     for (const Test& test : tests) sum += std::pow(ln_ratio(test, std::exp(ln_mu)), 2);
     return sum;
   };
-  const double least = std::log(0.02), most = std::log(0.8), step = (most - least) / 100;
+  const double least = std::log(least_friction), most = std::log(0.8), step = (most - least) / 100;
   double best = least;
   for (double at = least; at <= most; at += step)
     if (misfit(at) < misfit(best)) best = at;
@@ -87,8 +89,8 @@ Item shake_table(const Sources& sources) {
     fitted[specimen] = fitted_friction(some);
     if (std::isnan(fitted[specimen]))
       item.left_out.push_back(
-          specimen +
-          ": no friction makes a sliding block under the pulses slip as far as it did, so none is fitted to its peaks");
+          fmt::format("{}: of all frictions that are tried the lowest, {}, fits its {} peaks best, so none is told",
+                      specimen, least_friction, some.size()));
     else
       item.numbers.push_back({.id = "shake_table.mu." + specimen,
                               .what = specimen + ": friction that fits its peak slips under the pulses",

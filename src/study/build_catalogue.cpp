@@ -11,6 +11,7 @@
 #include <set>
 
 #include "base/durable_file.hpp"
+#include "base/folder.hpp"
 #include "io/database_file.hpp"
 #include "io/folder_lock.hpp"
 #include "io/fragility_file.hpp"
@@ -68,11 +69,12 @@ class Fingerprints {
 // What may change without new samples.
 bool is_of_fragility(const Difference& difference) { return difference.key.starts_with("fragility."); }
 
-// The study of the samples that lie in an entry's folder; nothing where there are none, or of another kernel.
-std::optional<Study> swept_study(const fs::path& folder) {
+// The study of the samples that lie in an entry's folder, on motions of this fingerprint; nothing where there are none, or of another
+// kernel.
+std::optional<Study> swept_study(const fs::path& folder, const std::string& motions) {
   if (!fs::exists(samples_path(folder))) return {};
   const io::SampleReader reader(samples_path(folder));
-  if (reader.provenance().kernel != kernel_text()) return {};
+  if (reader.provenance().kernel != kernel_text() || reader.motions().fingerprint != motions) return {};
   return parse_stored(reader.provenance().study, folder);
 }
 
@@ -114,10 +116,9 @@ Plan plan_of(const Catalogue& catalogue, const Database& before, const fs::path&
       plan.work.push_back(keep);
       continue;
     }
-    const auto swept = swept_study(entry_folder(folder, entry.words.id));
+    const auto swept = swept_study(entry_folder(folder, entry.words.id), of_motions(plan.fingerprints.back()));
     const std::vector<Difference> differ = swept ? differences(entry.study, *swept) : std::vector<Difference>{};
-    const bool same_motions = !row || of_motions(row->fingerprint) == of_motions(plan.fingerprints.back());
-    if (swept && same_motions && std::all_of(differ.begin(), differ.end(), is_of_fragility)) {
+    if (swept && std::all_of(differ.begin(), differ.end(), is_of_fragility)) {
       plan.work.push_back(refit);
       continue;
     }
@@ -144,20 +145,22 @@ void write_study(const Study& study, const fs::path& folder) {
   io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
 }
 
-void compute(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder,
-             const CatalogueOptions& options, std::set<std::string>& doubts_told) {
-  const bool quiet = options.quiet || entry.study.samples < many_samples;
-  std::vector<std::int64_t> resume{1};
+// What an entry's folder holds was interrupted in this very work; else it is of another study, and never came into the database.
+bool goes_on(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder) {
+  std::vector<std::int64_t> same{1};
   world.on_root([&] {
-    // Blocks and results of another study that never came into the database.
-    if (work == sweep_anew && (options.redo || fs::exists(samples_path(folder))))
-      resume[0] = 0;
+    if (work == sweep_anew && fs::exists(samples_path(folder)))
+      same[0] = 0;
     else if (work == sweep_anew && fs::exists(study_path(folder)))
-      resume[0] = differences(entry.study, parse_stored(read_whole(study_path(folder)), folder)).empty();
+      same[0] = differences(entry.study, parse_stored(read_whole(study_path(folder)), folder)).empty();
   });
-  resume = world.broadcast(resume);
-  RunFolder run_folder(world, folder, resume[0] ? io::Existing::resume : io::Existing::overwrite,
-                       "go on with the same command", {.writes = {study_path("").string()}});
+  return world.broadcast(same)[0];
+}
+
+void compute(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder,
+             io::Existing existing, const CatalogueOptions& options, std::set<std::string>& doubts_told) {
+  const bool quiet = options.quiet || entry.study.samples < many_samples;
+  RunFolder run_folder(world, folder, existing, "go on with the same command", {.writes = {study_path("").string()}});
   SweepSummary summary;
   if (work == refit)
     world.on_root([&] {
@@ -173,6 +176,18 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
     RunFolder other(world, intensity_folder(folder, short_name(im)), io::Existing::resume,
                     "go on with the same command", {.writes = {study_path("").string()}});
     fit(world, other, {.from = folder, .changes = {.im = short_name(im)}, .command = options.command, .quiet = true});
+  }
+}
+
+// Goes on with what was interrupted. --redo begins anew where that is of other records, or of another program.
+void compute(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder,
+             const CatalogueOptions& options, std::set<std::string>& doubts_told) {
+  const auto existing = goes_on(world, entry, work, folder) ? io::Existing::resume : io::Existing::overwrite;
+  try {
+    compute(world, entry, work, folder, existing, options, doubts_told);
+  } catch (const parallel::SharedError& error) {
+    if (!options.redo || existing != io::Existing::resume || error.exit() != Exit::usage) throw;
+    compute(world, entry, work, folder, io::Existing::overwrite, options, doubts_told);
   }
 }
 
@@ -298,7 +313,7 @@ CatalogueSummary build_catalogue(const Communicator& world, const Catalogue& cat
   world.on_root([&] {
     refuse_other_folder(folder);
     io::refuse_others(folder, written);
-    fs::create_directories(folder / "entries");
+    make_folder(folder / "entries");
     lock.emplace(folder, io::FolderLock::Settings{.lost = parallel::request_stop});
     before = database_before(folder);
     plan = plan_of(catalogue, before, folder, options.redo);

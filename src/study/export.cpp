@@ -4,6 +4,7 @@
 #include <freestand/error.hpp>
 
 #include "base/durable_file.hpp"
+#include "base/folder.hpp"
 #include "exports/certificate.hpp"
 #include "exports/exporter.hpp"
 #include "io/database_file.hpp"
@@ -173,7 +174,7 @@ exports::Certified put_files(const ExportRequest& request, const exports::Format
                              std::vector<fs::path>& written) {
   Json certificate = certificate_in(to.folder);
   for (const exports::File& file : files) refuse_to_replace(to.folder / file.name, certificate, request.overwrite);
-  if (!to.folder.empty()) fs::create_directories(to.folder);
+  if (!to.folder.empty()) make_folder(to.folder);
   for (const exports::File& file : files) {
     write_durably(to.folder / file.name, file.text);
     written.push_back(to.folder / file.name);

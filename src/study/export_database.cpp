@@ -5,6 +5,7 @@
 #include <cmath>
 #include <freestand/error.hpp>
 
+#include "base/folder.hpp"
 #include "base/shown_text.hpp"
 #include "io/database_file.hpp"
 #include "io/fragility_file.hpp"
@@ -199,7 +200,7 @@ std::vector<DatabaseExport> export_beside(const fs::path& database, const std::v
       request.output = database / "exports" / format;
       request.format = format;
       if (db.intensities.size() > 1) request.output = intensity_folder(request.output, im.name);
-      fs::create_directories(request.output);  // the dot in sa_g:0.7 is no file's ending
+      make_folder(request.output);  // the dot in sa_g:0.7 is no file's ending
       request.overwrite = true;
       request.im = im.name;
       all.push_back(export_database(request));

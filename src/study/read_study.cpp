@@ -219,8 +219,10 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
   read_posterior_tables(root, path.parent_path(), problems);
   Section file(root, "", line, problems);
   problems.throw_if_any();
-  refuse_other_kind(file, "motions", "motion",
-                    "this is a case (it has `motion`; a study has `motions`): `freestand simulate` takes it", problems);
+  refuse_other_kind(
+      file, "motions", "motion",
+      "motion is what a case has (a study has motions): write motions, or give a case to `freestand simulate`",
+      problems);
   read_common(file, path, study, look);
   read_design(file, study);
   study.motions = read_motions(file, study.folder, look, shakes_vertically(study.model));
@@ -250,8 +252,9 @@ Case parse_case(const std::string& text, const std::filesystem::path& path) {
   if (const auto root = parse_yaml(text, problems)) {
     Section file(*root, "", 1, problems);
     problems.throw_if_any();
-    refuse_other_kind(file, "motion", "motions",
-                      "this is a study (it has `motions`; a case has `motion`): `freestand run` takes it", problems);
+    refuse_other_kind(
+        file, "motion", "motions",
+        "motions is what a study has (a case has motion): write motion, or give a study to `freestand run`", problems);
     read_common(file, path, one.study);
     one.study.samples = one.study.block_size = 1;
     one.study.motions = {read_motion(file, one.study.folder)};

@@ -51,9 +51,11 @@ io::FragilityFile fragility_of(const std::filesystem::path& folder) {
   refuse_database(folder);
   const std::filesystem::path file = folder / "fragility.h5";
   if (!std::filesystem::exists(file))
-    throw Error(fmt::format(
-        "{} has no fragility.h5 (it is no fitted sweep): give the folder of `freestand run`, or fit it first",
-        folder.string()));
+    throw Error(
+        fmt::format(
+            "{} has no fragility.h5 (it is no fitted sweep): give the folder of `freestand run`, or fit it first",
+            folder.string()),
+        Exit::data);
   return io::read_fragility(file);
 }
 

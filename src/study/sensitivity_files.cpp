@@ -3,6 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/folder.hpp"
 #include "io/own_files.hpp"
 #include "io/text_files.hpp"
 #include "io/written_files.hpp"
@@ -88,7 +89,7 @@ std::string sensitivity_csv(const Sensitivity& found) {
 void write_sensitivity(const Sensitivity& found, const SensitivityOptions& options) {
   const std::filesystem::path folder = options.output.empty() ? options.folder : options.output;
   io::refuse_others(folder, {"sensitivity.json", "sensitivity.csv"});
-  std::filesystem::create_directories(folder);
+  make_folder(folder);
   io::write_result(folder / "sensitivity.csv", sensitivity_csv(found));
   io::write_result(folder / "sensitivity.json", io::json_text(sensitivity_json(found)));
 }

@@ -119,10 +119,11 @@ std::string room_told(const SweepSize& size, const std::filesystem::path& folder
   const double wanted = size.samples_bytes + size.blocks_bytes + counts + size.results_bytes;
   if (error || room >= wanted) return "";
   return fmt::format(
-      "{} has room for {}, and the sweep will take {} (keep: {{thin: 100}} or none takes less): it will stop when the "
-      "disk "
-      "is full, and go on with --resume when there is more room",
-      folder.string(), bytes_text(room), bytes_text(wanted));
+      "{} has room for {}, and the sweep will take {} ({} takes less): it will stop when the disk is full, and go on "
+      "with --resume when there is more room",
+      folder.string(), bytes_text(room), bytes_text(wanted),
+      size.samples_bytes + size.blocks_bytes > 0.5 * wanted ? "keep: {thin: 100} or none"
+                                                            : "fewer bins, capacities, second axes or demands");
 }
 
 }  // namespace freestand::study

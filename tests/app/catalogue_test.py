@@ -9,7 +9,7 @@ import time
 import unittest
 import xml.etree.ElementTree as xml
 
-from support import CONFIGS, InFolder, command, datasets, h5py, write_records
+from support import CONFIGS, InFolder, command, datasets, finished_blocks, h5py, write_records
 
 HEAD = """\
 format: freestand-catalogue/1
@@ -130,6 +130,26 @@ class Catalogue(InFolder):
         versions = {row["id"]: row["version"] for row in self.rows("entries.csv")}
         self.assertEqual(versions, {"fridge": "2", "rack": "1"})
         self.build(changed + RACK, "fresh")
+        self.assertEqual({k: v for k, v in self.tables().items() if k != "entries/version"}, {k: v for k, v in self.tables("fresh").items() if k != "entries/version"})
+
+    def test_what_is_computed_anew_goes_on_where_it_was_stopped(self):
+        self.build(FRIDGE)
+        text = (HEAD + FRIDGE).replace("samples: 600", "samples: 60000")
+        arguments = ["catalogue", self.write("some.yaml", text), "-o", self.folder / "db", "--redo"]
+        finished = 0
+        for _ in range(2):
+            process = subprocess.Popen(command(arguments), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.addCleanup(process.kill)
+            deadline = time.monotonic() + 60
+            while finished_blocks(self.folder / "db" / "entries" / "fridge") <= finished and time.monotonic() < deadline:
+                time.sleep(0.005)
+            process.send_signal(signal.SIGTERM)
+            self.assertEqual(process.wait(timeout=60), 75)
+            now = finished_blocks(self.folder / "db" / "entries" / "fridge")
+            self.assertGreater(now, finished)
+            finished = now
+        self.assertIn("1 entries: 1 computed", self.succeed(arguments).stdout.replace("1 entry", "1 entries"))
+        self.succeed(["catalogue", self.write("some.yaml", text), "-o", self.folder / "fresh"])
         self.assertEqual({k: v for k, v in self.tables().items() if k != "entries/version"}, {k: v for k, v in self.tables("fresh").items() if k != "entries/version"})
 
     def test_other_capacities_need_no_new_samples(self):

@@ -188,6 +188,11 @@ class Export(InFolder):
         self.assertFalse((self.folder / "a.xml").exists())
         self.assertFalse((self.folder / "certificate.json").exists())
 
+    def test_a_folder_that_cannot_be_made_is_told(self):
+        self.sweep()
+        file = self.write("file", "")
+        self.fail_with(2, ["export", self.out, "--format", "csv", "-o", file / "e"], "cannot make folder", str(file))
+
     def test_files_are_replaced_only_when_asked_and_only_ours(self):
         self.sweep()
         to = self.folder / "a.xml"

@@ -22,7 +22,7 @@
 #include "support/keyed_random.hpp"
 #include "support/random_cases.hpp"
 #include "support/repeats.hpp"
-#include "support/speed_laws.hpp"
+#include "support/slip_laws.hpp"
 
 namespace freestand::test {
 namespace {
@@ -59,14 +59,31 @@ Samples random_block(Model model, std::uint64_t seed, std::size_t samples, Wante
   return block;
 }
 
-// Friction that follows the speed, in two shapes that come in turns; it falls, or it rises.
-void add_speed_laws(Samples& block) {
-  for (std::size_t i = 0; i < block.specimens.size(); ++i) {
-    KeyedRandom random(171, i);
-    const double drop = random.uniform(-0.3, 0.6), speed = random.log_uniform(0.02, 0.5);
-    block.specimens[i].effects = {{i % 3 == 0 ? &rational : &exponential, {drop, speed}}};
+const dynamics::Effect slope{.name = "slope", .floor = [](dynamics::FloorInput& floor, const auto& p) {
+                               floor.push_mps2 += standard_gravity_mps2 * std::sin(p[0]);
+                               floor.gravity_factor *= std::cos(p[0]);
+                             }};
+
+// What the samples of a block have besides. Laws of the speed fall, or rise, in two shapes that come in turns.
+enum class With { nothing, speed, path, direction, all_of_slip, slope };
+
+EffectUse effect_of(With with, std::size_t i) {
+  KeyedRandom random(171, i);
+  const double drop = random.uniform(-0.3, 0.6), speed = random.log_uniform(0.02, 0.5);
+  switch (with) {
+    case With::speed:
+      return {i % 3 == 0 ? &rational : &exponential, {drop, speed}};
+    case With::path:
+      return {&worn, {1 - drop, speed}};
+    case With::direction:
+      return {&one_sided, {0.8 * drop}};
+    case With::all_of_slip:
+      return {&of_all, {0.8 * drop, speed}};
+    default:
+      return {&slope, {0.1 * drop}};
   }
 }
+bool has_sides(With with) { return with >= With::direction; }
 
 std::vector<Response> compute(const Samples& block, double tolerance = 1e-9) {
   std::vector<Response> responses(block.specimens.size());
@@ -160,14 +177,16 @@ Count compare(const char* label, const Samples& block) {
 struct Kind {
   std::string name;
   Model model;
-  bool by_speed = false, coulomb = false, vertical = false;
+  With with = With::nothing;
+  bool coulomb = false, vertical = false;
 };
 void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }
 
 Samples block_of(const Kind& kind, std::size_t samples) {
   Samples all = random_block(kind.model, 40 + static_cast<std::uint64_t>(kind.model), samples,
                              {.coulomb = kind.coulomb, .vertical = kind.vertical});
-  if (kind.by_speed) add_speed_laws(all);
+  for (std::size_t i = 0; i < samples && kind.with != With::nothing; ++i)
+    all.specimens[i].effects = {effect_of(kind.with, i)};
   return all;
 }
 
@@ -216,7 +235,8 @@ TEST_P(Batch, IsAsAccurateAsPromised) {
     const std::size_t half = found.size() / 2, most = found.size() * 9 / 10;
     std::printf("tolerance %.0e: median error %.1e, 90 %% %.1e; one by one %.1e, %.1e\n", tolerance, found[half],
                 found[most], alone[half], alone[most]);
-    EXPECT_LT(found[half], GetParam().by_speed ? 1e-10 : 1e-12);
+    const bool law = GetParam().with != With::nothing && GetParam().with != With::slope;
+    EXPECT_LT(found[half], law ? 1e-10 : 1e-12);
     EXPECT_LT(found[most], 10 * std::max(alone[most], 1e-12));
   }
 }
@@ -258,7 +278,10 @@ TEST_P(Batch, MirrorsWithTheShaking) {
   Samples all = block(200);
   const auto expected = compute(all);
   for (Shaking& shaking : all.shakings) shaking.scale = -shaking.scale;
-  for (Specimen& specimen : all.specimens) std::swap(specimen.block.left_m, specimen.block.right_m);
+  for (Specimen& specimen : all.specimens) {
+    std::swap(specimen.block.left_m, specimen.block.right_m);
+    if (has_sides(GetParam().with)) specimen.effects[0].parameters[0] = -specimen.effects[0].parameters[0];
+  }
   auto mirrored = compute(all);
   for (Response& response : mirrored) {
     response.residual_slip_m = 0 - response.residual_slip_m;
@@ -279,13 +302,22 @@ TEST_P(Batch, MirrorsWithTheShaking) {
 const Kind kinds[] = {{"Slide", Model::slide},
                       {"Rock", Model::rock},
                       {"SlideRock", Model::slide_rock},
-                      {"SlideBySpeed", Model::slide, true},
-                      {"SlideRockBySpeed", Model::slide_rock, true},
-                      {"RockWithCoulomb", Model::rock, false, true},
-                      {"SlideRockWithCoulomb", Model::slide_rock, false, true},
-                      {"SlideShaken", Model::slide, false, false, true},
-                      {"SlideRockShaken", Model::slide_rock, false, false, true},
-                      {"SlideRockShakenWithCoulomb", Model::slide_rock, false, true, true}};
+                      {"SlideBySpeed", Model::slide, With::speed},
+                      {"SlideRockBySpeed", Model::slide_rock, With::speed},
+                      {"SlideByPath", Model::slide, With::path},
+                      {"SlideRockByPath", Model::slide_rock, With::path},
+                      {"SlideByDirection", Model::slide, With::direction},
+                      {"SlideRockByDirection", Model::slide_rock, With::direction},
+                      {"SlideByAllOfSlip", Model::slide, With::all_of_slip},
+                      {"SlideRockByAllOfSlip", Model::slide_rock, With::all_of_slip},
+                      {"SlideOnSlope", Model::slide, With::slope},
+                      {"SlideRockOnSlope", Model::slide_rock, With::slope},
+                      {"SlideRockOnSlopeWithCoulomb", Model::slide_rock, With::slope, true},
+                      {"RockWithCoulomb", Model::rock, With::nothing, true},
+                      {"SlideRockWithCoulomb", Model::slide_rock, With::nothing, true},
+                      {"SlideShaken", Model::slide, With::nothing, false, true},
+                      {"SlideRockShaken", Model::slide_rock, With::nothing, false, true},
+                      {"SlideRockShakenWithCoulomb", Model::slide_rock, With::nothing, true, true}};
 INSTANTIATE_TEST_SUITE_P(Kinds, Batch, testing::ValuesIn(kinds), [](const auto& info) { return info.param.name; });
 
 class BatchOnEachMachine : public testing::TestWithParam<std::tuple<Kind, const char*>> {};

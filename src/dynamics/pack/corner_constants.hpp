@@ -11,6 +11,9 @@ namespace {
 
 inline double smaller(double a, double b) { return b < a ? b : a; }
 
+// Of a force's second derivative within an interval, what takes a grip or a force off its chord.
+inline double bent_share(double mu_s) { return (mu_s > 0.5 ? 1 + mu_s : 1.5) / 8; }
+
 struct CornerConstants {
   double arm, per_inertia;  // signed, as c in dynamics/contact.hpp; 1/J
   double weight, tip, kappa,
@@ -50,7 +53,7 @@ struct CornerConstants {
     double most = magnitude(c.scale) * c.table->later_peak[0] + magnitude(c.along);
     if (c.vertical_scale != 0) most += magnitude(c.vertical_scale) * c.table->later_vertical_peak[0];
     const double field = (c.g + most) * per;
-    const double share = (c.mu_s > 0.5 ? 1 + c.mu_s : 1.5) / 8;
+    const double share = bent_share(c.mu_s);
     curvature0 = share * 17 * size2 * field * field * size;
     curvature1 = share * 6.6 * size2 * magnitude(c.scale) * per;
     lift_curvature = share * 6.6 * size2 * per_inertia;

@@ -1,7 +1,7 @@
 // The friction of a slip as its series ask for it: the factor F on mu_k over a step, coefficient by coefficient.
 //
 //   Coulomb  F = 1, and no work
-//   BySpeed  F(|w|), a law of the slip speed (dynamics/speed_law.hpp); all samples of a pool have laws of one shape, and
+//   BySlip   a law of the slip's speed, path and direction (dynamics/slip_law.hpp); all samples of a pool have laws of one shape, and
 //            every lane its own constants
 #pragma once
 
@@ -13,7 +13,7 @@
 #include "dynamics/pack/outside.hpp"
 #include "dynamics/pack/power.hpp"
 #include "dynamics/pack/slide_rock_rows.hpp"
-#include "dynamics/speed_law.hpp"
+#include "dynamics/slip_law.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -26,18 +26,20 @@ struct NoFactor {
   }
 };
 
-// F of the first N + 1 coefficients of the speed. Constants: value(i) and shift(i) of node i, and exponential(x).
+// F of the first N + 1 coefficients of the speed. Constants: value(i) and shift(i) of node i, exponential(x), and of the slip the path
+// until now and the direction. sigma: sigma w is positive.
 template <int N, class Real, class Constants>
-class SpeedFactor {
+class SlipFactor {
  public:
   static constexpr bool varies = true;
-  SpeedFactor(const SpeedLaw& law, const Constants& constants) : law_(law), constants_(constants) {}
+  SlipFactor(const SlipLaw& law, const Constants& constants, const Real& sigma)
+      : law_(law), constants_(constants), sigma_(sigma) {}
 
   // Calls expand(factor) with what gives the coefficients of F while those of the speed are found.
   template <class Expand>
   [[gnu::always_inline]] void expand(Expand&& expand) {
     if (law_.fades) {
-      Fading fading{constants_, at_[law_.count]};
+      Fading fading{constants_, at_[law_.place()]};
       expand(fading);
     } else {
       expand(*this);
@@ -46,11 +48,17 @@ class SpeedFactor {
 
   // to_speed w: coefficient k of |w| [m/s]; those before k were given.
   [[gnu::always_inline]] void advance(int k, const Real& to_speed, const Real& w) {
-    at_[0][k] = to_speed * w;
+    at_[slip_speed_place][k] = to_speed * w;
+    if (law_.sees_path) {
+      Real* path = at_[slip_path_place];
+      if (k == 0) path[0] = constants_.path();
+      if (k < N) path[k + 1] = sigma_ * w * Real(1.0 / (k + 1));
+    }
+    if (law_.sees_direction) at_[slip_direction_place][k] = k == 0 ? constants_.direction() : Real(0.0);
     for (int i = 0; i < law_.count; ++i) {
       const Node& node = law_.nodes[i];
       const Real *x = at_[node.a], *y = at_[node.b];
-      Real* z = at_[i + 1];
+      Real* z = at_[slip_places + i];
       switch (node.op) {
         case Op::constant:
           z[k] = k == 0 ? constants_.value(i) : Real(0.0);
@@ -77,7 +85,7 @@ class SpeedFactor {
     }
   }
 
-  const Real* factor() const { return at_[law_.count]; }
+  const Real* factor() const { return at_[law_.place()]; }
   Real first() const { return factor()[0]; }
   Real first_rate() const { return factor()[1]; }
   Real last() const {
@@ -155,33 +163,39 @@ class SpeedFactor {
     return (sum + Real(double(k)) * x[k] * z[0]) * Real(1.0 / k);
   }
 
-  const SpeedLaw& law_;
+  const SlipLaw& law_;
   const Constants constants_;
-  Real at_[speed_law_nodes + 1][N + 1];
+  const Real sigma_;
+  Real at_[slip_places + slip_law_nodes][N + 1];
 };
 
 // Of one sample.
 struct OwnConstants {
-  const SpeedLaw& law;
+  const SlipLaw& law;
+  double slid;
+  int way;
+  double path() const { return slid; }
+  double direction() const { return way; }
   double value(int i) const { return law.nodes[i].value; }
   double shift(int i) const { return law.nodes[i].shift; }
   static double exponential(double x) { return exp_outside(x); }
 };
 template <int N>
-using OwnFactor = SpeedFactor<N, double, OwnConstants>;
+using OwnFactor = SlipFactor<N, double, OwnConstants>;
 
 struct Coulomb {
-  static constexpr bool by_speed = false;
+  static constexpr bool by_slip = false;
   static Pack neglected(const Pack&) { return Pack(FREESTAND_ISA::neglected); }
 
   struct Rows {
-    void enter(int, const BatchCase&) {}
+    void enter(int, const BatchCase&, double, int) {}
+    void slid(int, const PackMask&, const Pack&) {}
     static Pack to_speed(int, const Pack&, const Pack&) { return Pack(0.0); }
     void copy(int, const Rows&, int) {}
   };
   template <int N>
   struct Factor : NoFactor {
-    Factor(const Rows&, int) {}
+    Factor(const Rows&, int, const Pack&) {}
     static Pack first() { return Pack(1.0); }
     static Pack last() { return Pack(1.0); }
     static Pack at(const Pack&) { return Pack(1.0); }
@@ -191,17 +205,20 @@ struct Coulomb {
   };
 };
 
-struct BySpeed {
-  static constexpr bool by_speed = true;
+struct BySlip {
+  static constexpr bool by_slip = true;
   static Pack neglected(const Pack& left) { return Pack(neglected_by_laws) * left; }
 
   struct Rows {
-    const SpeedLaw* law = nullptr;
-    alignas(64) double value[speed_law_nodes][march_slots] = {}, shift[speed_law_nodes][march_slots] = {};
+    const SlipLaw* law = nullptr;
+    alignas(64) double value[slip_law_nodes][march_slots] = {}, shift[slip_law_nodes][march_slots] = {};
     alignas(64) double per_step[march_slots] = {};  // 1/h
+    alignas(64) double path[march_slots] = {}, direction[march_slots] = {};
 
-    void enter(int i, const BatchCase& c) {
+    void enter(int i, const BatchCase& c, double slid, int way) {
       law = c.law;
+      path[i] = slid;
+      direction[i] = way;
       for (int n = 0; n < law->count; ++n) {
         value[n][i] = law->nodes[n].value;
         shift[n][i] = law->nodes[n].shift;
@@ -210,6 +227,10 @@ struct BySpeed {
     }
     // What makes the slip of a step |w|; left: its part of an interval.
     Pack to_speed(int i, const Pack& sigma, const Pack& left) const { return sigma * load(per_step + i) / left; }
+    // Those lanes have slid on by so much.
+    void slid(int i, const PackMask& which, const Pack& more) {
+      if (law->sees_path) store_where(which, path + i, load(path + i) + more);
+    }
     void copy(int to, const Rows& other, int from) {
       law = other.law;
       for (int n = 0; n < law->count; ++n) {
@@ -217,6 +238,8 @@ struct BySpeed {
         shift[n][to] = other.shift[n][from];
       }
       per_step[to] = other.per_step[from];
+      path[to] = other.path[from];
+      direction[to] = other.direction[from];
     }
   };
   struct Constants {
@@ -224,11 +247,14 @@ struct BySpeed {
     int lane;
     Pack value(int i) const { return load(rows.value[i] + lane); }
     Pack shift(int i) const { return load(rows.shift[i] + lane); }
+    Pack path() const { return load(rows.path + lane); }
+    Pack direction() const { return load(rows.direction + lane); }
     static Pack exponential(const Pack& x) { return exponential_of(x); }
   };
   template <int N>
-  struct Factor : SpeedFactor<N, Pack, Constants> {
-    Factor(const Rows& rows, int lane) : SpeedFactor<N, Pack, Constants>(*rows.law, {rows, lane}) {}
+  struct Factor : SlipFactor<N, Pack, Constants> {
+    Factor(const Rows& rows, int lane, const Pack& sigma)
+        : SlipFactor<N, Pack, Constants>(*rows.law, {rows, lane}, sigma) {}
   };
 };
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/pack.hpp"
-#include "dynamics/speed_law.hpp"
+#include "dynamics/slip_law.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -30,9 +30,9 @@ inline double cos_outside(double x) {
   clear_upper_parts();
   return std::cos(x);
 }
-inline double friction_factor_outside(const SpeedLaw& law, double speed) {
+inline double friction_factor_outside(const SlipLaw& law, const Slip& slip) {
   clear_upper_parts();
-  return friction_factor(law, speed);
+  return friction_factor(law, slip);
 }
 
 }  // namespace

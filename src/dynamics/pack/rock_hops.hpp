@@ -274,6 +274,7 @@ class RockHops : public RockLanes {
     rows.omega[k] = side * r_.omega[i];
     rows.side[k] = side;
     rows.a[k] = r_.a[i];
+    rows.slope[k] = 0;
     rows.fraction[k] = r_.fraction[i];
     rows.next[k] = r_.next[i];
     rows.stop[k] = r_.next[i] + free_of(i) - 1;

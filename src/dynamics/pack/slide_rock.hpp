@@ -148,7 +148,7 @@ class SlideRock : public SlideRockSliding {
     ry_ = value(y.ry, x);
     if (slips) {
       const double xi = value(y.xi, x);
-      path_ += magnitude(xi - xi_);
+      slid(xi - xi_);
       xi_ = xi;
       w_ = value(y.w, x) / hs;
     }
@@ -175,7 +175,7 @@ class SlideRock : public SlideRockSliding {
   void slide_rock(CornerSeries<K>& y, double hs, Field next) const {
     const double hs2 = hs * hs, sigma_mu = sigma_ * c_.mu_k;
     if (c_.law) {
-      OwnFactor<K> factor(*c_.law, {*c_.law});
+      OwnFactor<K> factor(*c_.law, {*c_.law, path_, sigma_}, sigma_);
       y.slide_rock(c_.g * hs2, a_ * hs2, (next.a - a_) * hs2, c_.k2, sigma_mu, sigma_ / hs, factor);
     } else {
       NoFactor none;
@@ -204,13 +204,13 @@ class SlideRock : public SlideRockSliding {
   template <int K>
   double grip(const CornerSeries<K>& y, double x, double hs, Field next) const {
     const Forces f = rocking(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x));
-    return c_.mu_s * f.fy - magnitude(f.fx);
+    return mu_s_against(f.fx) * f.fy - magnitude(f.fx);
   }
 
   // Where the grip, which holds at both ends of the step, is lost in between; the end: nowhere.
   template <int K>
   double weakest(const CornerSeries<K>& y, double x, double hs, Field next, const Forces& begin, double last) const {
-    const double first = c_.mu_s * begin.fy - magnitude(begin.fx);
+    const double first = mu_s_against(begin.fx) * begin.fy - magnitude(begin.fx);
     if (smaller(first, last) > 0.05 * c_.g) return x;
     const double middle = 0.5 * x, here = grip(y, middle, hs, next);
     if (here < 0) return middle;
@@ -249,7 +249,8 @@ class SlideRock : public SlideRockSliding {
 
   template <int K>
   Forces forces_at(const CornerSeries<K>& y, double x, double hs, Field next) const {
-    return forces(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x), value(y.w, x) / hs);
+    return forces(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x), value(y.w, x) / hs,
+                  magnitude(value(y.xi, x) - xi_));
   }
 
   template <int K>
@@ -315,7 +316,7 @@ class SlideRock : public SlideRockSliding {
     theta_ = side_ * 0.5 * pi;
     peak_rotation_ = 0.5 * pi;
     const double xi = value(y.xi, hi);
-    path_ += magnitude(xi - xi_);
+    slid(xi - xi_);
     xi_ = xi;
     event();
     ended_ = true;

@@ -146,7 +146,7 @@ class SlideRockHops : public SlideRockLane {
     const HopBounds& b = bounds_;
     const double share = v / c_.g;
     const double fx = b.fx * (1 + share) + small_share * c_.g, lift = b.lift + v + small_share * c_.g;
-    const double grip = (c_.mu_s * (c_.g - lift) - fx) / (b.fx1 + c_.mu_s * b.lift1);
+    const double mu_s = least_mu_s(), grip = (mu_s * (c_.g - lift) - fx) / (b.fx1 + mu_s * b.lift1);
     const double unseen = b.unseen_push(fx + magnitude(c_.along), lift, force2_);
     return smaller(smaller(grip, unseen), b.tips * (1 - share));
   }
@@ -176,7 +176,7 @@ class SlideRockHops : public SlideRockLane {
       lift = lifts * lifting.most;
       const double rest = 1 - lift / c_.g;  // of gravity
       slow = bounds_.slow * rest - bounds_.slow1 * push;
-      if (push > bounds_.tips * rest || push > slips_at(c_.g - lift)) return false;
+      if (push > bounds_.tips * rest || push > least_mu_s() * (c_.g - lift)) return false;
       variation = (unit * bounds_.fast * shaking.path + lifts * bounds_.fast_lift * lifting.path) / slow;
       const double need = span / slow * above_exp(0.5 * variation) + 2;
       if (!(need < longest_row) || m_ + need > last_) return false;
@@ -204,7 +204,7 @@ class SlideRockHops : public SlideRockLane {
     const double fx = bounds_.fx * (1 + v / c_.g) + bounds_.fx1 * push + more;
     const double lift = bounds_.lift + v + bounds_.lift1 * push + more;
     const double ax = fx + magnitude(c_.along);
-    return ax * ax + lift * lift < force2_ && fx < c_.mu_s * (c_.g - lift);
+    return ax * ax + lift * lift < force2_ && fx < least_mu_s() * (c_.g - lift);
   }
 
   static constexpr int watched_ahead = 32;      // knots

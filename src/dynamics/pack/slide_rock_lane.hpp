@@ -28,8 +28,11 @@ class SlideRockLane {
         half_base_(0.5 * (c.left + c.right)),
         corner_constants_{{c, -1}, {c, 1}},
         bounds_(c, corner_constants_[0], corner_constants_[1]),
+        mu_s_{c.mu_s, c.mu_s},
         sticks_(!c.coulomb || (blow_sticks(c, corner_constants_[0], corner_constants_[1]) &&
-                               blow_sticks(c, corner_constants_[1], corner_constants_[0]))) {}
+                               blow_sticks(c, corner_constants_[1], corner_constants_[0]))) {
+    look_at_law();
+  }
 
   bool declined() const { return declined_; }
   bool ended() const { return declined_ || ended_; }
@@ -62,10 +65,11 @@ class SlideRockLane {
     r.weight_g[i] = c_.g * h2;
     r.gravity[i] = c_.g * per_inertia;
     r.push[i] = s * c_.scale * per_inertia;
-    r.mu[i] = c_.mu_s;
+    r.mu_left[i] = mu_s(-side_);
+    r.mu_right[i] = mu_s(side_);
     const double alpha = (rx_ * g_ - ry_ * a_) * corner.per_inertia, omega2 = omega_ * omega_;
     const double fx = ry_ * alpha - rx_ * omega2 + a_, lift = (g_ - c_.g) - rx_ * alpha - ry_ * omega2;
-    r.grip[i] = (c_.mu_s * (c_.g + lift) - magnitude(fx)) * h2;
+    r.grip[i] = (mu_s_against(fx) * (c_.g + lift) - magnitude(fx)) * h2;
     const double ax = fx - c_.along;
     r.square[i] = (ax * ax + lift * lift) * (h2 * h2);
     r.seen[i] = force2_ * (h2 * h2);
@@ -74,9 +78,9 @@ class SlideRockLane {
     r.turned[i] = peak_rotation_;
     r.look[i] = smaller(peak_rotation_, std::sqrt(2 * room_ / half_base_));
     r.half_base[i] = half_base_;
-    r.curvature0[i] = corner.curvature0;
-    r.curvature1[i] = corner.curvature1;
-    r.curvature2[i] = corner.curvature2;
+    r.curvature0[i] = more_bent_ * corner.curvature0;
+    r.curvature1[i] = more_bent_ * corner.curvature1;
+    r.curvature2[i] = more_bent_ * corner.curvature2;
     if constexpr (Gravity::shaken) {
       r.shakes.weight[i] = c_.vertical_scale * h2;
       r.shakes.per_inertia[i] = corner.per_inertia;
@@ -107,7 +111,7 @@ class SlideRockLane {
     r.peak[i] = peak_slip_;
     r.seen[i] = force2_ * (h2 * h2);
     if constexpr (Gravity::shaken) r.shakes.weight[i] = c_.vertical_scale * h2;
-    r.law.enter(i, c_);
+    r.law.enter(i, c_, path_, sigma_);
   }
 
   // The block in lane i of the rows is about to strike the floor as lane l of a pack.
@@ -119,9 +123,9 @@ class SlideRockLane {
     see_slip(xi_);
     k.gravity[l] = c_.g * per_inertia;
     k.push[l] = -side_ * c_.scale * per_inertia;
-    k.curvature0[l] = to.curvature0;
-    k.curvature1[l] = to.curvature1;
-    k.curvature2[l] = to.curvature2;
+    k.curvature0[l] = more_bent_ * to.curvature0;
+    k.curvature1[l] = more_bent_ * to.curvature1;
+    k.curvature2[l] = more_bent_ * to.curvature2;
     k.arm[l] = magnitude(to.arm);
     k.height[l] = c_.h;
     k.kept[l] = from.kept;
@@ -173,7 +177,7 @@ class SlideRockLane {
     in_between_ = false;
     if (!moved) return;
     const double xi = side_ * r.xi[i];
-    path_ += magnitude(xi - xi_);
+    slid(xi - xi_);
     xi_ = xi;
     w_ = side_ * r.w[i] / h_;
   }
@@ -284,11 +288,28 @@ class SlideRockLane {
   const CornerConstants& on(int side) const { return corner_constants_[side > 0]; }
   double arm(int side) const { return on(side).arm; }
   double tips_at(double a, double g) const { return (a > 0 ? c_.left : c_.right) / c_.h * g; }
-  double slips_at(double g) const { return c_.mu_s * g; }
-  double quiet(double a, double g) const { return smaller(tips_at(a, g), slips_at(g)); }
+  double slips_at(double a, double g) const { return mu_s_against(a) * g; }
+  double quiet(double a, double g) const { return smaller(tips_at(a, g), slips_at(a, g)); }
 
-  // Of a slip with velocity w [m/s].
-  double mu_k(double w) const { return c_.law ? c_.mu_k * friction_factor_outside(*c_.law, magnitude(w)) : c_.mu_k; }
+  // Of a slip to the right or to the left with velocity w [m/s], so much farther on [m].
+  double mu_k(double w, int sigma, double ahead = 0) const {
+    return c_.law ? c_.mu_k * friction_factor_outside(*c_.law, {magnitude(w), path_ + ahead, sigma}) : c_.mu_k;
+  }
+  // Of one that begins so; under a force fx.
+  double mu_s(int sigma) const { return mu_s_[sigma > 0]; }
+  double mu_s_against(double fx) const { return mu_s(fx > 0 ? -1 : 1); }
+  double least_mu_s() const { return smaller(mu_s_[0], mu_s_[1]); }
+
+  // By so much.
+  void slid(double way) {
+    path_ += magnitude(way);
+    if (c_.law && c_.law->sees_path) look_at_law();
+  }
+  void look_at_law() {
+    if (!c_.law) return;
+    for (const int sigma : {-1, 1}) mu_s_[sigma > 0] = c_.mu_s * friction_factor_outside(*c_.law, {0, path_, sigma});
+    more_bent_ = bent_share(larger(mu_s_[0], mu_s_[1])) / bent_share(c_.mu_s);
+  }
 
   // Floor acceleration and effective gravity.
   struct Field {
@@ -300,24 +321,24 @@ class SlideRockLane {
     const double alpha = (rx * f.g - ry * f.a) / (c_.k2 + rx * rx + ry * ry);
     return {alpha, 0, ry * alpha - rx * omega * omega + f.a, f.g - rx * alpha - ry * omega * omega};
   }
-  // Near Painleve's paradox, where d vanishes, the corner is said to pull: the sample is then computed alone.
-  Forces slipping(double rx, double ry, double omega, Field f, double w) const {
-    const double sm = sigma_ * mu_k(w), q = rx + sm * ry, n = f.g - ry * omega * omega, d = c_.k2 + rx * q;
+  // Near Painleve's paradox, where d vanishes, or under friction that pushes, the corner is said to pull: the sample is then computed
+  // alone.
+  Forces slipping(double rx, double ry, double omega, Field f, double w, double ahead = 0) const {
+    const double sm = sigma_ * mu_k(w, sigma_, ahead), q = rx + sm * ry, n = f.g - ry * omega * omega,
+                 d = c_.k2 + rx * q;
     const double alpha = n * q / d, fy = n * c_.k2 / d;
-    return {alpha, -sm * fy - f.a - ry * alpha + rx * omega * omega, -sm * fy, d > 1e-3 * c_.k2 ? fy : -1.0};
+    return {alpha, -sm * fy - f.a - ry * alpha + rx * omega * omega, -sm * fy,
+            d > 1e-3 * c_.k2 && sigma_ * sm >= 0 ? fy : -1.0};
   }
-  Forces forces(double rx, double ry, double omega, Field f, double w) const {
-    return mode_ == Mode::rock ? rocking(rx, ry, omega, f) : slipping(rx, ry, omega, f, w);
+  Forces forces(double rx, double ry, double omega, Field f, double w, double ahead = 0) const {
+    return mode_ == Mode::rock ? rocking(rx, ry, omega, f) : slipping(rx, ry, omega, f, w, ahead);
   }
 
   // ---- peaks
-  void feel(double fx, double fy) {
-    feel_acceleration(fx - c_.along, fy - c_.g);
-  }
+  void feel(double fx, double fy) { feel_acceleration(fx - c_.along, fy - c_.g); }
   void feel_acceleration(double ax, double ay) { force2_ = larger(force2_, square_of(ax, ay)); }
   double square_of_forces(const Forces& f) const { return square_of(f.fx - c_.along, f.fy - c_.g); }
-  static double square_of(double x, double y) { return x * x + y * y;
-  }
+  static double square_of(double x, double y) { return x * x + y * y; }
   double slip_of(double xi, double theta) const {
     const double half = sin_outside(0.5 * theta);
     return xi + side_ * half_base_ * 2 * half * half;
@@ -357,7 +378,9 @@ class SlideRockLane {
   double half_base_;
   CornerConstants corner_constants_[2];  // on the left corner, on the right one
   HopBounds bounds_;
-  bool sticks_;  // impacts of a corner that sticks make none slip
+  double mu_s_[2];        // of slips to the left, and to the right, that begin
+  double more_bent_ = 1;  // what forces do within an interval, against the bounds of the corners' constants
+  bool sticks_;           // impacts of a corner that sticks make none slip
   Mode mode_ = Mode::rest;
   int m_ = 0, side_ = 0, sigma_ = 0;
   double fraction_ = 1, a_ = 0;  // part of the interval ahead; floor acceleration now, its slope included

@@ -69,8 +69,8 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   // out, stand on the other corner then, at the knot ahead unless something more happens before.
   void strike(Strikes& s, unsigned here) {
     StrikeRows& k = s.rows;
-    const Pack zero(0.0), one(1.0), fraction = load(r_.fraction), a = load(r_.a), a_next = fetch(r_.next) + load(r_.slope),
-                                    change = a_next - a;
+    const Pack zero(0.0), one(1.0), fraction = load(r_.fraction), a = load(r_.a),
+                                    a_next = fetch(r_.next) + load(r_.slope), change = a_next - a;
     RockSeries<N> y;
     expand<false>(y, 0, fraction, load(r_.omega), Interval(r_.shakes, 0, r_.next).per_inertia(load(r_.gravity)),
                   load(r_.push), a, change);
@@ -106,10 +106,11 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   PackMask stand(const StrikeRows& k, const Pack& omega, const Pack& a, const Pack& ahead, const Pack& a_next) {
     const Pack zero(0.0), two(2.0), arm = load(k.arm), height = load(k.height), omega2 = omega * omega;
     const Pack gravity = load(k.gravity), push = load(k.push), weight = zero - load(r_.weight);
-    const Pack weight_g = load(r_.weight_g), mu = load(r_.mu), turned = load(r_.turned), base = load(r_.half_base);
+    const Pack weight_g = load(r_.weight_g), mu_left = load(r_.mu_right), mu_right = load(r_.mu_left),
+               turned = load(r_.turned), base = load(r_.half_base);
     const Pack pull = arm * gravity + height * (push * a), floor = weight * a;
     const Pack fx = arm * omega2 - height * pull + floor, lift = zero - arm * pull - height * omega2;
-    const Pack grip = mu * (weight_g + lift) - xsimd::abs(fx);
+    const Pack grip = choose(fx > zero, mu_left, mu_right) * (weight_g + lift) - xsimd::abs(fx);
     const Pack room = xsimd::max(load(k.peak) - load(k.shift), zero);
 
     const Pack most = xsimd::max(xsimd::abs(floor), xsimd::abs(weight * a_next)), swing = two * height * omega2;
@@ -117,7 +118,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack along = weight * load(r_.slope), ax = fx - along, hop_ax = hop_fx + xsimd::abs(along);
     const PackMask dies = (load(k.row) * omega <= load(k.slow)) & (omega2 < load(k.last_told)) &
                           (hop_ax * hop_ax + hop_lift * hop_lift < load(r_.seen)) &
-                          (hop_fx < mu * (weight_g - hop_lift));
+                          (hop_fx < xsimd::min(mu_left, mu_right) * (weight_g - hop_lift));
     const Pack limit2 = Pack(4.0) * xsimd::min(load(k.limit2), turned * turned);
     const PackMask hops = (omega2 * omega2 < limit2 * (pull * pull)) & (xsimd::abs(floor) <= load(k.tips));
     const PackMask rocks =
@@ -131,6 +132,8 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     store(r_.fraction, ahead);
     store(r_.grip, grip);
     store(r_.square, ax * ax + lift * lift);
+    store(r_.mu_left, mu_left);
+    store(r_.mu_right, mu_right);
     store(r_.gravity, gravity);
     store(r_.push, push);
     store(r_.weight, weight);
@@ -168,7 +171,8 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack weight_g = load(r_.weight_g + i), weight = load(r_.weight + i);
     const Pack alpha = rx * at_end(field) - ry * (push * a_next), omega2 = omega * omega;
     const Pack fx = ry * alpha - rx * omega2 + weight * a_next, lift = shakes.lifted(zero) - rx * alpha - ry * omega2;
-    const Pack grip0 = load(r_.grip + i), grip = load(r_.mu + i) * (weight_g + lift) - xsimd::abs(fx);
+    const Pack mu = choose(fx > zero, load(r_.mu_left + i), load(r_.mu_right + i));
+    const Pack grip0 = load(r_.grip + i), grip = mu * (weight_g + lift) - xsimd::abs(fx);
     const Pack ax = fx - weight * slope, square0 = load(r_.square + i), square = ax * ax + lift * lift;
     const Pack curvature =
         load(r_.curvature0 + i) +
@@ -241,10 +245,10 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
                left4 = fraction2 * fraction2;
     RockEnd there = end;
     there.omega = end.omega * fraction;
-    const Pack top = watch_force(y, load(r_.weight + i) * fraction2,
-                                 shakes.per_inertia(load(r_.gravity + i)) * fraction2, load(r_.push + i) * fraction2, a,
-                                 end.a - a, there, Pack(1.0), seen * left4, true, shakes.lift() * fraction2,
-                                 load(r_.slope + i));
+    const Pack top =
+        watch_force(y, load(r_.weight + i) * fraction2, shakes.per_inertia(load(r_.gravity + i)) * fraction2,
+                    load(r_.push + i) * fraction2, a, end.a - a, there, Pack(1.0), seen * left4, true,
+                    shakes.lift() * fraction2, load(r_.slope + i));
     store(r_.seen + i, choose(feels, Whole ? top : top / left4, seen));
   }
 };

@@ -53,7 +53,7 @@ class SlideRockPool {
   }
 
   bool slide(bool marching) {
-    if constexpr (Friction::by_speed) {
+    if constexpr (Friction::by_slip) {
       if (ready(slide_ends_, marching))
         end_slips(slide_ends_);
       else if (ready(slides_, marching))
@@ -185,7 +185,7 @@ class SlideRockPool {
       return refill(number);
     }
     if (lane.slips()) return slips_.add(lane, number);
-    if constexpr (Friction::by_speed)
+    if constexpr (Friction::by_slip)
       if (lane.slides()) return slides_.add(lane, number);
     if (lane.hops()) return hops_.add(lane, number);
     const int free = rocks_.add(lane, number);

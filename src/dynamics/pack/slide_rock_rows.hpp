@@ -13,16 +13,16 @@ template <class Field>
 struct SlideRockRows {
   using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
-  alignas(64) double a[march_slots];                              // unit record, at the knot, and the slope
-  alignas(64) double slope[march_slots];                          // gravity along the floor, of the unit record
-  alignas(64) double fraction[march_slots];                       // part of the interval that lies ahead
-  alignas(64) double grip[march_slots], square[march_slots];      // mu_s f_y - |f_x|, squared acceleration, there
-  alignas(64) double gravity[march_slots], push[march_slots];     // g h^2/J, scale h^2/J
-  alignas(64) double weight[march_slots], weight_g[march_slots];  // scale h^2, g h^2
-  alignas(64) double mu[march_slots];                             // mu_s
-  alignas(64) double look[march_slots];                           // no smaller rotation is a new peak, nor its slip
-  alignas(64) double seen[march_slots];                           // largest squared acceleration so far
-  alignas(64) double turned[march_slots], room[march_slots];      // largest rotation; slip less s xi
+  alignas(64) double a[march_slots];                               // unit record, at the knot, and the slope
+  alignas(64) double slope[march_slots];                           // gravity along the floor, of the unit record
+  alignas(64) double fraction[march_slots];                        // part of the interval that lies ahead
+  alignas(64) double grip[march_slots], square[march_slots];       // mu_s f_y - |f_x|, squared acceleration, there
+  alignas(64) double gravity[march_slots], push[march_slots];      // g h^2/J, scale h^2/J
+  alignas(64) double weight[march_slots], weight_g[march_slots];   // scale h^2, g h^2
+  alignas(64) double mu_left[march_slots], mu_right[march_slots];  // mu_s against a slip to the left, and to the right
+  alignas(64) double look[march_slots];                            // no smaller rotation is a new peak, nor its slip
+  alignas(64) double seen[march_slots];                            // largest squared acceleration so far
+  alignas(64) double turned[march_slots], room[march_slots];       // largest rotation; slip less s xi
   alignas(64) double half_base[march_slots];
   alignas(64) double curvature0[march_slots], curvature1[march_slots],
       curvature2[march_slots];                  // bound of what forces do within an interval
@@ -38,9 +38,9 @@ struct SlideRockRows {
     look[i] = seen[i] = 1e300;
   }
   [[gnu::always_inline]] auto all() {
-    return std::array{theta,  omega,      rx,         ry,         a,        slope, fraction, grip,
-                      square, gravity,    push,       weight,     weight_g, mu,    look,
-                      seen,   curvature0, curvature1, curvature2, turned,   room,  half_base};
+    return std::array{theta,  omega,      rx,         ry,         a,        slope,   fraction, grip,
+                      square, gravity,    push,       weight,     weight_g, mu_left, mu_right, look,
+                      seen,   curvature0, curvature1, curvature2, turned,   room,    half_base};
   }
 };
 
@@ -64,9 +64,8 @@ struct SlipRows {
 
   void retire(int i) { seen[i] = 1e300; }
   [[gnu::always_inline]] auto all() {
-    return std::array{theta,    omega, rx,   ry,       xi,    w,         a,       slope,   fraction, weight,
-                      weight_g, k2,    size, friction, sigma, half_base, lever_x, lever_y, look,     peak,
-                      seen};
+    return std::array{theta, omega, rx,       ry,    xi,        w,       a,       slope, fraction, weight, weight_g,
+                      k2,    size,  friction, sigma, half_base, lever_x, lever_y, look,  peak,     seen};
   }
 };
 

@@ -1,5 +1,5 @@
-// Blocks that slide flat at present under a friction that follows their speed, side by side, and their steps in packs: an
-// interval, or what is left of it, as long as nothing happens in it: no end of the slip, no turn of its speed, no tipping.
+// Blocks that slide flat at present under a law of friction, side by side, and their steps in packs: an interval, or what is
+// left of it, as long as nothing happens in it: no end of the slip, no turn of the friction that could be a peak, no tipping.
 #pragma once
 
 #include "base/pack.hpp"
@@ -36,20 +36,23 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
   void finish(int i, unsigned here, SlipEnds& ends) {
     const Pack zero(0.0), one(1.0), two(2.0), fraction = load(r_.fraction + i), sigma = load(r_.sigma + i);
     FlatSeries<N, Pack> y;
-    typename Friction::template Factor<N> factor(r_.law, i);
-    const Pack friction = expand(y, factor, i, fraction, load(r_.a + i), fetch(r_.next + i));
+    typename Friction::template Factor<N> factor(r_.law, i, sigma);
+    const Pack friction = expand(y, factor, i, fraction, sigma, load(r_.a + i), fetch(r_.next + i));
     const Pack w = y.sum(y.w), guess = first_zero(sigma * y.w[0], sigma * y.w[1], sigma * w);
     const PackMask stops = sigma * w <= zero;
     const PackMask slows = sigma * y.w[1] + two * xsimd::abs(y.w[2]) + Pack(6.0) * xsimd::abs(y.w[3]) < zero;
     const Pack x = bracketed_root<N + 1>(y.w, sigma, zero, one, guess, stops);
     const Pack most = xsimd::max(factor.first(), factor.at(x)), force = friction * most,
                fraction2 = fraction * fraction;
+    const Pack xi = y.at(y.xi, x), seen = load(r_.seen + i), peak = load(r_.peak + i),
+               square = force * force / (fraction2 * fraction2);
     const PackMask found = stops & slows & (sigma * y.w[0] > zero) & (x > zero) & settled(y, i, fraction) &
-                           (most + curvature(factor) < load(r_.tips + i));
-    const Pack xi = y.at(y.xi, x), seen = load(r_.seen + i), peak = load(r_.peak + i);
+                           (most + curvature(factor) < load(r_.tips + i)) & ~may_peak(factor, square, seen) &
+                           (xsimd::min(factor.first(), factor.at(x)) >= zero);
+    r_.law.slid(i, found, xsimd::abs(xi - y.xi[0]));
     store_where(found, r_.xi + i, xi);
     store_where(found, r_.w + i, zero);
-    store_where(found, r_.seen + i, xsimd::max(seen, force * force / (fraction2 * fraction2)));
+    store_where(found, r_.seen + i, xsimd::max(seen, square));
     store_where(found, r_.peak + i, xsimd::max(peak, xsimd::abs(xi)));
     store(ends.parts, x);
     ends.found = bits(found) & here;
@@ -59,17 +62,26 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
  private:
   // The friction of Coulomb's law, in the units of the series.
   template <class Factor>
-  [[gnu::always_inline]] Pack expand(FlatSeries<N, Pack>& y, Factor& factor, int i, const Pack& fraction, const Pack& a,
-                                     const Pack& a_next) const {
+  [[gnu::always_inline]] Pack expand(FlatSeries<N, Pack>& y, Factor& factor, int i, const Pack& fraction,
+                                     const Pack& sigma, const Pack& a, const Pack& a_next) const {
     const Pack fraction2 = fraction * fraction, weight = load(r_.weight + i) * fraction2;
     const Pack friction = load(r_.friction + i) * (load(r_.weight_g + i) * fraction2);
     y.xi[0] = load(r_.xi + i);
     y.w[0] = load(r_.w + i) * fraction;
-    y.slide(friction, weight * a, weight * (a_next - a), r_.law.to_speed(i, load(r_.sigma + i), fraction), factor);
+    y.slide(friction, weight * a, weight * (a_next - a), r_.law.to_speed(i, sigma, fraction), factor);
     return friction;
   }
   PackMask settled(const FlatSeries<N, Pack>& y, int i, const Pack& fraction) const {
     return xsimd::abs(y.w[N + 1]) < Pack(neglected_by_laws) * load(r_.size + i) * fraction;
+  }
+  // A new peak of the acceleration is near, and the friction may turn within.
+  template <class Factor>
+  static PackMask may_peak(const Factor& factor, const Pack& square, const Pack& seen) {
+    const Pack* f = factor.factor();
+    Pack bends(0.0);
+#pragma GCC unroll 16
+    for (int k = 2; k <= N; ++k) bends = bends + Pack(double(k)) * xsimd::abs(f[k]);
+    return (square * Pack(1.1) > seen) & ~(xsimd::abs(f[1]) >= bends);
   }
   // What the factor leaves its chord by, at most.
   template <class Factor>
@@ -86,8 +98,8 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     const Pack a = load(r_.a + i), a_next = fetch(r_.next + i);
     const Pack sigma = load(r_.sigma + i);
     FlatSeries<N, Pack> y;
-    typename Friction::template Factor<N> factor(r_.law, i);
-    const Pack friction = expand(y, factor, i, fraction, a, a_next);
+    typename Friction::template Factor<N> factor(r_.law, i, sigma);
+    const Pack friction = expand(y, factor, i, fraction, sigma, a, a_next);
     const Pack xi = y.sum(y.xi), w = y.sum(y.w), first = factor.first(), last = factor.last();
 
     Pack bow(0.0);
@@ -100,9 +112,10 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
     const PackMask starts = (sigma * y.w[0] >= zero) & (sigma * y.w[1] > square_term + bow);
     const PackMask stops = ~((slower > Pack(0.25) * square_term + bow) | starts);
     const PackMask tips = ~(most + curvature(factor) < load(r_.tips + i));
-    const PackMask turns = (square * Pack(1.1) > seen) & ~(xsimd::abs(y.w[1]) > Pack(2.0) * (square_term + bow));
-    const PackMask settles = settled(y, i, fraction), stays = stops | tips | turns | ~settles;
+    const PackMask settles = settled(y, i, fraction) & (xsimd::min(first, last) >= zero),
+                   stays = stops | tips | may_peak(factor, square, seen) | ~settles;
 
+    r_.law.slid(i, ~stays, xsimd::abs(xi - y.xi[0]));
     store_where(~stays, r_.xi + i, xi);
     store_where(~stays, r_.w + i, w * per_fraction);
     store_where(~stays, r_.seen + i, xsimd::max(seen, square));

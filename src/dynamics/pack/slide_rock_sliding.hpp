@@ -1,4 +1,4 @@
-// One sample of slide-rock while it slides flat under a friction that follows its speed.
+// One sample of slide-rock while it slides flat under a law of friction.
 #pragma once
 
 #include <cmath>
@@ -35,7 +35,7 @@ class SlideRockSliding : public SlideRockTrajectory {
     r.tips[i] = tipping_factor();
     r.peak[i] = peak_slip_;
     r.seen[i] = force2_ * (h2 * h2);
-    r.law.enter(i, c_);
+    r.law.enter(i, c_, path_, sigma_);
   }
   template <class Friction>
   void leave(const FlatRows<Friction>& r, int i) {
@@ -44,7 +44,7 @@ class SlideRockSliding : public SlideRockTrajectory {
     const bool moved = leave_floor(r, i);
     in_between_ = false;
     if (!moved) return;
-    path_ += magnitude(r.xi[i] - xi_);
+    slid(r.xi[i] - xi_);
     xi_ = r.xi[i];
     w_ = r.w[i] / h_;
   }
@@ -66,13 +66,13 @@ class SlideRockSliding : public SlideRockTrajectory {
     constexpr int N = slide_order;
     const double hs = h_ * fraction_, hs2 = hs * hs, a1 = next_floor();
     FlatSeries<N> y;
-    OwnFactor<N> factor(*c_.law, {*c_.law});
+    OwnFactor<N> factor(*c_.law, {*c_.law, path_, sigma_}, sigma_);
     y.xi[0] = xi_;
     y.w[0] = w_ * hs;
     y.slide(sigma_ * c_.mu_k * c_.g * hs2, a_ * hs2, (a1 - a_) * hs2, sigma_ / hs, factor);
 
     double x = valid_part(0, y.w[N + 1], N + 1, true), p[N + 2];
-    if (x == 0) return decline();
+    if (x == 0 || !(factor.first() >= 0)) return decline();
     Ends ends = Ends::none;
     for (int k = 0; k < N + 2; ++k) p[k] = sigma_ * y.w[k];
     if (p[0] == 0 && p[1] < 0 && p[1] > -slip_zero * c_.g * hs2) p[1] = 0;
@@ -80,9 +80,9 @@ class SlideRockSliding : public SlideRockTrajectory {
     for (int k = 0; k <= N; ++k) p[k] = (k == 0 ? tipping_factor() : 0.0) - factor.factor()[k];
     if (const double tips = first_fall<N>(p, x); tips < x) x = tips, ends = Ends::tips;
 
-    feel_friction(factor, y, x);
+    feel_friction(factor, x);
     const double xi = evaluate<N + 1>(y.xi, x);
-    path_ += magnitude(xi - xi_);
+    slid(xi - xi_);
     xi_ = xi;
     w_ = ends == Ends::stops ? 0.0 : evaluate<N + 1>(y.w, x) / hs;
     see_slip(xi_);
@@ -95,15 +95,16 @@ class SlideRockSliding : public SlideRockTrajectory {
     sigma_ = way;
   }
 
-  // Friction follows the speed: its extremes are at the ends, or where the speed has its own.
-  void feel_friction(const OwnFactor<slide_order>& factor, const FlatSeries<slide_order>& y, double x) {
+  // Its extremes are at the ends, or where it turns.
+  void feel_friction(const OwnFactor<slide_order>& factor, double x) {
     constexpr int N = slide_order;
     const double push = c_.mu_k * c_.g;
     feel(push * factor.factor()[0], c_.g);
     feel(push * evaluate<N>(factor.factor(), x), c_.g);
-    double rate[N + 1];
-    for (int k = 0; k <= N; ++k) rate[k] = (k + 1) * y.w[k + 1];
-    if (rate[0] * evaluate<N>(rate, x) < 0) feel(push * evaluate<N>(factor.factor(), sign_change<N>(rate, x)), c_.g);
+    double rate[N];
+    for (int k = 0; k < N; ++k) rate[k] = (k + 1) * factor.factor()[k + 1];
+    if (rate[0] * evaluate<N - 1>(rate, x) < 0)
+      feel(push * evaluate<N>(factor.factor(), sign_change<N - 1>(rate, x)), c_.g);
   }
 };
 

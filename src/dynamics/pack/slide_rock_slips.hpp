@@ -118,7 +118,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
           friction(load(r.friction + i)),
           sigma(load(r.sigma + i)),
           shakes(r.shakes, i, r.next + i),
-          factor(r.law, i),
+          factor(r.law, i, sigma),
           field(shakes.gravity(weight_g) * fraction2) {
       const Pack weight = load(r.weight + i) * fraction2;
       y.theta[0] = load(r.theta + i);
@@ -185,7 +185,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
       const Pack f = n * k2 * per_d, lift = f - weight_g * fraction2;
       const Pack n_rate = plus_rate(x * o * o * o - two * y1 * o * (n * q * per_d), shakes.lift() * fraction2);
       Pack d_rate = o * (y1 * q + x * (y1 - mu * x)), change(0.0);
-      if constexpr (Friction::by_speed) {
+      if constexpr (Friction::by_slip) {
         const Pack mu_rate = friction * at.factor_rate;
         d_rate = d_rate + x * mu_rate * y1;
         change = mu * mu_rate * f * f * (d * d / k2);
@@ -193,7 +193,9 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
       const Pack along = load(r.weight + i) * fraction2 * slope;  // the block's acceleration is -(mu f + along)
       const Pack rises = (n_rate * d - n * d_rate) * (mu * mu * f + lift + mu * along) + change;
       const Pack square = mu * mu * f * f + lift * lift + (two * mu * f + along) * along;
-      return {square / (fraction2 * fraction2), rises, (n > zero) & (d > Pack(0.05) * k2)};
+      PackMask holds = (n > zero) & (d > Pack(0.05) * k2);
+      if constexpr (Friction::by_slip) holds = holds & (at.factor >= zero);
+      return {square / (fraction2 * fraction2), rises, holds};
     }
     // The largest square, where its slope is positive at the start and negative at x.
     Pack top_between(const Touch& first, const Touch& last, const Pack& end) const {
@@ -251,6 +253,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     store_where(goes, r_.omega + i, end.omega * per_fraction);
     store_where(goes, r_.rx + i, end.rx);
     store_where(goes, r_.ry + i, end.ry);
+    r_.law.slid(i, goes, xsimd::abs(end.xi - s.y.xi[0]));
     store_where(goes, r_.xi + i, end.xi);
     store_where(goes, r_.w + i, end.w * per_fraction);
   }

@@ -52,7 +52,7 @@ class SlideRockTrajectory : public SlideRockHops {
         if (fraction_ < 1e-9 && m_ + 1 < last_) next_knot();  // 1e-11 s late at most: a push of 1e-10 m/s
         event();
         side_ = after > 0 ? -1 : 1;
-        if (tips_at(after, g_) <= slips_at(g_)) {
+        if (tips_at(after, g_) <= slips_at(after, g_)) {
           stand(Mode::rock, side_);
         } else {
           mode_ = Mode::slide;
@@ -96,7 +96,7 @@ class SlideRockTrajectory : public SlideRockHops {
     }
     const double moved = sigma_ * hs * part * (p[0] + part * (p[1] * 0.5 + part * p[2] * (1.0 / 3)));
     xi_ += moved;
-    path_ += magnitude(moved);
+    slid(moved);
     w_ = x <= 1 ? 0.0 : sigma_ * (p[0] + p[1] + p[2]);
     see_slip(xi_);
     forward(part);
@@ -125,10 +125,10 @@ class SlideRockTrajectory : public SlideRockHops {
   }
   // speed, moved: of the shaken floor since. slows: what friction and the slope take off the speed [m/s2].
   void slide_to(int knot, double speed, double moved, double time, double slows) {
-    const double slid = time * (w_ - 0.5 * slows * time) - moved;
+    const double way = time * (w_ - 0.5 * slows * time) - moved;
     feel(-sigma_ * c_.mu_k * c_.g, c_.g);
-    xi_ += slid;
-    path_ += magnitude(slid);
+    xi_ += way;
+    slid(way);
     see_slip(xi_);
     w_ -= speed + slows * time;
     m_ = knot - 1;
@@ -145,24 +145,24 @@ class SlideRockTrajectory : public SlideRockHops {
       const int way = w_ > 0 ? 1 : -1;
       mode_ = Mode::slide;
       sigma_ = way;
-      if (mu_k(w_) * c_.h > magnitude(arm(way))) {
+      if (mu_k(w_, way) * c_.h > magnitude(arm(way))) {
         stand(Mode::slide_rock, way);
         sigma_ = way;
       }
       return;
     }
     if (!(g_ > 0)) return decline();
-    const bool slips = magnitude(a_) > slips_at(g_), tips = magnitude(a_) > tips_at(a_, g_);
+    const bool slips = magnitude(a_) > slips_at(a_, g_), tips = magnitude(a_) > tips_at(a_, g_);
     if (!slips && !tips) return;
     if (tips) {
       stand(Mode::rock, over);
       const Forces f = rocking(rx_, ry_, 0.0, field());
-      if (magnitude(f.fx) <= c_.mu_s * f.fy) return;
+      if (magnitude(f.fx) <= mu_s_against(f.fx) * f.fy) return;
     }
     stand(Mode::slide, over);
     side_ = 0;
     sigma_ = over;
-    if (mu_k(0) * c_.h > magnitude(arm(over))) {
+    if (mu_k(0, over) * c_.h > magnitude(arm(over))) {
       stand(Mode::slide_rock, over);
       sigma_ = over;
     }
@@ -181,7 +181,7 @@ class SlideRockTrajectory : public SlideRockHops {
     const Forces f = rocking(rx_, ry_, omega_, field());
     mode_ = Mode::rock;
     sigma_ = 0;
-    if (magnitude(f.fx) > c_.mu_s * f.fy) slip_on_corner(f.fx);
+    if (magnitude(f.fx) > mu_s_against(f.fx) * f.fy) slip_on_corner(f.fx);
   }
   void strike() {
     event();
@@ -250,7 +250,7 @@ class SlideRockTrajectory : public SlideRockHops {
   }
   void leave_row(double slip, double lasted) {
     sigma_ = slip > 0 ? 1 : -1;
-    slip += lasted * (a_ + sigma_ * mu_k(slip) * g_);
+    slip += lasted * (a_ + sigma_ * mu_k(slip, sigma_) * g_);
     if (sigma_ * slip > 0) w_ = slip;
   }
   bool strike_and_hop(int from, HopRow& row) const {
@@ -271,7 +271,7 @@ class SlideRockTrajectory : public SlideRockHops {
     for (int i = 0; i < pieces; ++i) {
       row.stops = row.stops || w == 0;
       Forces f = rocking(-arm(side), c_.h, 0.0, field());
-      const bool grips = w == 0 && magnitude(f.fx) <= c_.mu_s * f.fy;
+      const bool grips = w == 0 && magnitude(f.fx) <= mu_s_against(f.fx) * f.fy;
       sigma_ = grips ? 0 : w > 0 || (w == 0 && f.fx < 0) ? 1 : -1;
       if (!grips) f = slipping(-arm(side), c_.h, 0.0, field(), w);
       const double half_curvature = 0.5 * side * f.alpha;
@@ -332,7 +332,8 @@ class SlideRockTrajectory : public SlideRockHops {
     const double ratio = on(side).kept, rows = 1 / (1 - ratio * on(-side).kept);
     const int sigma = w_ > 0 ? 1 : -1;
     const double arms = magnitude(arm(side)) + ratio * magnitude(arm(-side));
-    const double after = w_ + rows * (2 * c_.h * rate * (1 - ratio) + 2 * sigma * mu_k(w_) * arms * magnitude(rate));
+    const double after =
+        w_ + rows * (2 * c_.h * rate * (1 - ratio) + 2 * sigma * mu_k(w_, sigma) * arms * magnitude(rate));
     return sigma * after > 0 ? after : 0;
   }
 };
