@@ -30,7 +30,7 @@ Response respond(const Specimen&, const Shaking&, const Settings& = {}, History*
 // The same for many samples at once, in packs as wide as the machine's instruction set; what no pack covers is computed
 // one by one. The answer to a sample depends on that sample alone, to the bit, and is the same with any instruction set.
 // All spans are equally long. Packs keep the tolerance as well as single samples do: at 1e-9 the median error of a peak is
-// below 1e-12 of it, below 1e-9 where friction follows the speed and with Bouc-Wen's contact. The latter go one by one at
+// below 1e-12 of it, below 1e-9 where friction follows the slip and with Bouc-Wen's contact. The latter go one by one at
 // tolerances below 1e-10, others below 1e-13. Pulses, and records under the other effects, have the bits of single samples.
 void respond_batch(std::span<const Specimen>, std::span<const Shaking>, const Settings&, std::span<Response>);
 

@@ -12,8 +12,9 @@ namespace freestand::test {
 namespace {
 
 // Those that change block, impact, friction or floor in ways that packs know.
-const std::set<std::string> in_packs = {"impact_loss",  "offset_mass",     "rate_strengthening", "rate_weakening",
-                                        "reduced_base", "static_friction", "vertical_shaking"};
+const std::set<std::string> in_packs = {"directional_friction", "floor_tilt",   "friction_wear",      "impact_loss",
+                                        "offset_mass",          "reduced_base", "rate_strengthening", "rate_weakening",
+                                        "static_friction",      "vertical_shaking"};
 
 const std::set<std::string> no_laws = {"impact_loss", "offset_mass", "reduced_base", "static_friction",
                                        "vertical_shaking"};
@@ -40,8 +41,8 @@ Samples samples_with(const effects::Effect& effect, Model model, std::size_t cou
     samples.shakings.push_back(samples.cases.back().shaking);
     Specimen& specimen = samples.specimens.back();
     specimen.model = model;
-    // Packs take laws of the slip speed with Housner's impacts only.
-    if (effect.name == "impact_loss" || effect.name.rfind("rate_", 0) == 0) specimen.impact.law = ImpactLaw::housner;
+    // Kernels of their own take laws of the slip with Housner's impacts only.
+    if (effect.name == "impact_loss" || effect.friction) specimen.impact.law = ImpactLaw::housner;
     if (i % 3 == 2) continue;
     KeyedRandom random(92, i);
     specimen.effects = {{&effect, {}}};
@@ -140,7 +141,7 @@ TEST(CatalogueInBlocks, HistoriesHaveTheBitsOfSingleOnes) {
 // then on.
 TEST(LawsInBlocks, OfAnySizeHaveTheBitsOfSingleSamples) {
   for (const char* name :
-       {"viscous_drag", "floor_tilt", "directional_friction", "friction_wear", "moving_contents", "wall_impact"}) {
+       {"viscous_drag", "centering_spring", "slack_tether", "pressure_friction", "moving_contents", "wall_impact"}) {
     Samples samples = samples_with(*effects::find(name), Model::slide_rock, 48);
     std::vector<std::size_t> with;
     for (std::size_t i = 0; i < samples.specimens.size(); ++i) {
