@@ -65,6 +65,7 @@ struct HopRow {
   bool felt = true;    // its accelerations count
   double lasts = 0;    // until now [s]
   bool stops = false;  // the slip was zero since this was last cleared
+  double slid = 0;     // until now [m]
 };
 
 // A row that started with `rate`, as its first two hops tell [s].

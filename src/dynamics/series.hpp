@@ -98,8 +98,8 @@ template <class Real, int N>
   return (y[0] == Real(0.0)) & (y[1] > least) & surely_positive(over_tau, h);
 }
 
-// The same on (0, h], by the shape: positive at the start, or from there on, and rising all the way, or positive at the end too and bent
-// downwards all the way, over its chord. The end is given away by what round-off may make of it.
+// y > 0 on (0, h] beyond doubt, by its shape: not negative at the start, and rising all the way; or bent downwards all the way, over its
+// chord, with an end that is more than what round-off makes of zero.
 template <class Real, int N>
 [[gnu::always_inline]] inline auto surely_rises_or_arches(const Series<Real, N>& y, const Real& h) {
   using std::abs;

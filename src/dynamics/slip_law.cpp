@@ -74,6 +74,7 @@ std::optional<SlipLaw> slip_law(const Laws& laws) {
                             -1};
     place[static_cast<std::size_t>(i)] = slip_places + law.count++;
   }
+  if (law.count == 0) return {};  // what it looks at is itself the factor
   law = without_unused(law);
   law.fades = fading(law);
   return law;
@@ -130,10 +131,15 @@ double steepest_exponent(const SlipLaw& law, double change, double within) {
   Places before, after;
   for (double speed = 0; speed < fastest; speed = 2 * speed + change) {
     const double later = speed + change;
-    evaluate(law, {speed, 0, 1}, before);
-    evaluate(law, {later, later * within, 1}, after);
-    for (int i = 0; i < law.count; ++i)
-      if (law.nodes[i].op == Op::exp) most = std::fmax(most, std::abs(after[law.nodes[i].a] - before[law.nodes[i].a]));
+    for (const double path : {0.0, 0.1, 1.0, 10.0})
+      for (const int direction : {1, -1}) {
+        if ((path > 0 && !law.sees_path) || (direction < 0 && !law.sees_direction)) continue;
+        evaluate(law, {speed, path, direction}, before);
+        evaluate(law, {later, path + later * within, direction}, after);
+        for (int i = 0; i < law.count; ++i)
+          if (law.nodes[i].op == Op::exp)
+            most = std::fmax(most, std::abs(after[law.nodes[i].a] - before[law.nodes[i].a]));
+      }
     if (law.fades) break;  // its exponent is a straight line
   }
   return most;

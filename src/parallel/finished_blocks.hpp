@@ -1,5 +1,6 @@
 // What lies in the folder of unfinished work, as a whole: the log of samples (block_log.hpp), the sums over them
-// (block_sums.hpp), the rounds in which they are made (study/rounds.hpp) and the size of blocks (study/checkpoint.hpp), of whatever study.
+// (block_sums.hpp), the rounds in which they are made (study/rounds.hpp), the size of blocks (study/checkpoint.hpp) and the entry of a
+// catalogue that they are of (study/build_catalogue.cpp), of whatever study.
 #pragma once
 
 #include <algorithm>
@@ -24,6 +25,7 @@ inline void remove_finished_blocks(const std::filesystem::path& folder) {
   remove_run_files(folder, "sums");
   remove_run_files(folder, "rounds");
   remove_run_files(folder, "size");
+  remove_run_files(folder, "entry");
   remove_asides(folder);
   std::error_code error;
   if (std::filesystem::is_empty(folder, error)) std::filesystem::remove(folder, error);

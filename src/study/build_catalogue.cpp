@@ -145,22 +145,28 @@ void write_study(const Study& study, const fs::path& folder) {
   io::write_text(study_path(folder), io::signed_text(expanded(study, folder)));
 }
 
-// What an entry's folder holds was interrupted in this very work; else it is of another study, and never came into the database.
-bool goes_on(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder) {
-  std::vector<std::int64_t> same{1};
-  world.on_root([&] {
-    if (work == sweep_anew && fs::exists(samples_path(folder)))
-      same[0] = 0;
-    else if (work == sweep_anew && fs::exists(study_path(folder)))
-      same[0] = differences(entry.study, parse_stored(read_whole(study_path(folder)), folder)).empty();
-  });
-  return world.broadcast(same)[0];
+// Beside the blocks of an entry: of which study, records and program they are.
+fs::path mark_path(const fs::path& folder) { return parallel::run_file(blocks_path(folder), 0, 0, "entry"); }
+std::string mark_of(const std::string& fingerprint) { return fmt::format("{} {}\n", fingerprint, kernel_text()); }
+
+// What an entry's folder holds is to be gone on with: what was interrupted in this very work, or a sweep to fit again.
+bool goes_on(const fs::path& folder, const std::string& fingerprint, Work work) {
+  if (work == refit) return true;
+  return fs::exists(mark_path(folder)) && read_whole(mark_path(folder)) == mark_of(fingerprint);
 }
 
 void compute(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder,
-             io::Existing existing, const CatalogueOptions& options, std::set<std::string>& doubts_told) {
+             const std::string& fingerprint, const CatalogueOptions& options, std::set<std::string>& doubts_told) {
   const bool quiet = options.quiet || entry.study.samples < many_samples;
-  RunFolder run_folder(world, folder, existing, "go on with the same command", {.writes = {study_path("").string()}});
+  std::vector<std::int64_t> resume{0};
+  world.on_root([&] { resume[0] = goes_on(folder, fingerprint, work); });
+  RunFolder run_folder(world, folder, world.broadcast(resume)[0] ? io::Existing::resume : io::Existing::overwrite,
+                       "go on with the same command", {.writes = {study_path("").string()}});
+  if (work == sweep_anew)
+    world.on_root([&] {
+      make_folder(blocks_path(folder));
+      write_durably(mark_path(folder), mark_of(fingerprint));
+    });
   SweepSummary summary;
   if (work == refit)
     world.on_root([&] {
@@ -176,18 +182,6 @@ void compute(const Communicator& world, const CatalogueEntry& entry, Work work, 
     RunFolder other(world, intensity_folder(folder, short_name(im)), io::Existing::resume,
                     "go on with the same command", {.writes = {study_path("").string()}});
     fit(world, other, {.from = folder, .changes = {.im = short_name(im)}, .command = options.command, .quiet = true});
-  }
-}
-
-// Goes on with what was interrupted. --redo begins anew where that is of other records, or of another program.
-void compute(const Communicator& world, const CatalogueEntry& entry, Work work, const fs::path& folder,
-             const CatalogueOptions& options, std::set<std::string>& doubts_told) {
-  const auto existing = goes_on(world, entry, work, folder) ? io::Existing::resume : io::Existing::overwrite;
-  try {
-    compute(world, entry, work, folder, existing, options, doubts_told);
-  } catch (const parallel::SharedError& error) {
-    if (!options.redo || existing != io::Existing::resume || error.exit() != Exit::usage) throw;
-    compute(world, entry, work, folder, io::Existing::overwrite, options, doubts_told);
   }
 }
 
@@ -319,6 +313,7 @@ CatalogueSummary build_catalogue(const Communicator& world, const Catalogue& cat
     plan = plan_of(catalogue, before, folder, options.redo);
   });
   plan.work = world.broadcast(plan.work);
+  plan.fingerprints.resize(catalogue.entries.size());  // which the root alone knows
   CatalogueSummary summary;
   {
     std::set<std::string> doubts_told;
@@ -328,7 +323,8 @@ CatalogueSummary build_catalogue(const Communicator& world, const Catalogue& cat
       display.show("entry " + entry.words.id, i + 1, catalogue.entries.size());
       const auto work = static_cast<Work>(plan.work[i]);
       ++(work == keep ? summary.kept : work == refit ? summary.refitted : summary.computed);
-      if (work != keep) compute(world, entry, work, entry_folder(folder, entry.words.id), options, doubts_told);
+      if (work != keep)
+        compute(world, entry, work, entry_folder(folder, entry.words.id), plan.fingerprints[i], options, doubts_told);
     }
   }
   std::vector<std::int64_t> others{0};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "support/random_cases.hpp"
 #include "support/slip_laws.hpp"
 
 namespace freestand::dynamics {
@@ -39,6 +40,35 @@ TEST(SlipLaw, SeesPathAndDirection) {
       EXPECT_NEAR(friction_factor(all, slip), (1 + 0.3 * direction) * (0.7 + 0.3 * std::exp(-0.7)) / (1 + 0.5 * path),
                   1e-15);
     }
+}
+
+const Effect itself{.name = "itself", .friction = [](const At& at, const auto&) { return at.path; }};
+const Effect nothing{.name = "nothing", .friction = [](const At& at, const auto&) { return at.path / at.path; }};
+const Effect steep_to_the_left{.name = "steep_to_the_left", .friction = [](const At& at, const auto& p) {
+                                 return 0.5 + 0.5 * exp(-at.speed * (1.0 - 0.98 * at.sigma) / p[0]);
+                               }};
+
+TEST(SlipLaw, IsNoneWithoutAnOperation) {
+  Specimen specimen;
+  specimen.effects = {{&itself, {}}};
+  EXPECT_FALSE(slip_law(Laws(specimen)));
+}
+
+TEST(SlipLaw, IsAsSteepAsInItsSteeperDirection) {
+  const SlipLaw law = law_of(steep_to_the_left, {0.01});
+  EXPECT_NEAR(steepest_exponent(law, 0.1, 0.01), 0.1 * 1.98 / 0.01, 1e-9);
+}
+
+// Friction that is no number is an outcome, in packs as alone.
+TEST(SlipLaw, ThatIsNoNumberIsNotFinite) {
+  test::RandomCase one = test::random_case({.one_model = 0}, 3);
+  one.specimen.model = Model::slide_rock;
+  one.specimen.impact.law = ImpactLaw::housner;
+  one.specimen.effects = {{&nothing, {}}};
+  Response packed;
+  respond_batch({&one.specimen, 1}, {&one.shaking, 1}, {}, {&packed, 1});
+  EXPECT_EQ(packed.outcome, respond(one.specimen, one.shaking).outcome);
+  EXPECT_EQ(packed.outcome, Outcome::not_finite);
 }
 
 TEST(SlipLaw, CarriesNoOperationThatNobodyAsksFor) {

@@ -12,9 +12,9 @@ namespace freestand::test {
 namespace {
 
 // Those that change block, impact, friction or floor in ways that packs know.
-const std::set<std::string> in_packs = {"directional_friction", "floor_tilt",   "friction_wear",      "impact_loss",
-                                        "offset_mass",          "reduced_base", "rate_strengthening", "rate_weakening",
-                                        "static_friction",      "vertical_shaking"};
+const std::set<std::string> in_packs = {
+    "directional_friction", "floor_tilt",         "friction_wear",  "impact_loss",     "offset_mass",
+    "reduced_base",         "rate_strengthening", "rate_weakening", "static_friction", "vertical_shaking"};
 
 const std::set<std::string> no_laws = {"impact_loss", "offset_mass", "reduced_base", "static_friction",
                                        "vertical_shaking"};
@@ -42,7 +42,8 @@ Samples samples_with(const effects::Effect& effect, Model model, std::size_t cou
     Specimen& specimen = samples.specimens.back();
     specimen.model = model;
     // Kernels of their own take laws of the slip with Housner's impacts only.
-    if (effect.name == "impact_loss" || effect.friction) specimen.impact.law = ImpactLaw::housner;
+    if (effect.name == "impact_loss" || (effect.friction && effect.name != "pressure_friction"))
+      specimen.impact.law = ImpactLaw::housner;
     if (i % 3 == 2) continue;
     KeyedRandom random(92, i);
     specimen.effects = {{&effect, {}}};

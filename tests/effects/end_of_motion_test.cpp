@@ -42,5 +42,21 @@ TEST(EndOfMotion, ABlockOnASlopeGoes) {
   for (const Solver& solver : both_solvers) EXPECT_EQ(solver(tall, {&push}, {}, nullptr).outcome, Outcome::overturned);
 }
 
+// The same on a record, which packs know.
+TEST(EndOfMotion, ABlockOnASlopeGoesInPacksToo) {
+  const FloorMotion record = piecewise_linear("push", 0.01, std::vector<double>(71, -4.2));
+  Specimen specimens[2] = {sliding(0.4, {effect("floor_tilt", {0.45})}), slender(1.0, {effect("floor_tilt", {0.45})})};
+  const Shaking shakings[2] = {{&record}, {&record}};
+  Response packed[2];
+  respond_batch(specimens, shakings, {.free_vibration_s = 1}, packed);
+  for (int i = 0; i < 2; ++i) {
+    const Response alone = respond(specimens[i], shakings[i], {.free_vibration_s = 1});
+    EXPECT_NE(alone.outcome, Outcome::at_rest);
+    EXPECT_EQ(packed[i].outcome, alone.outcome);
+    EXPECT_NEAR(packed[i].slid_path_m, alone.slid_path_m, 1e-7);
+    EXPECT_NEAR(packed[i].peak_rotation_rad, alone.peak_rotation_rad, 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace freestand::test::end_of_motion_test

@@ -11,7 +11,7 @@ namespace {
 
 inline double smaller(double a, double b) { return b < a ? b : a; }
 
-// Of a force's second derivative within an interval, what takes a grip or a force off its chord.
+// The share of |f''| by which a grip, or a force, leaves its chord.
 inline double bent_share(double mu_s) { return (mu_s > 0.5 ? 1 + mu_s : 1.5) / 8; }
 
 struct CornerConstants {

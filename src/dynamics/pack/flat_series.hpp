@@ -1,5 +1,5 @@
-// The Taylor series of a block that slides flat under a friction that follows its speed (see dynamics/contact.hpp):
-//     w' = -a - sigma mu_k F(|w|) g
+// The Taylor series of a block that slides flat under a law of friction (see dynamics/contact.hpp):
+//     w' = -a - sigma mu_k F g,   F of the slip (dynamics/slip_law.hpp)
 #pragma once
 
 #include "dynamics/pack/polynomials.hpp"

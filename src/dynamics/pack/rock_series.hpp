@@ -163,7 +163,8 @@ PackMask turns_twice(const Step& y, const Pack& omega_end) {
 // Squared acceleration of the centre of mass: its largest value from the start of the series to x = part, where the
 // state is `end`, if it is above `seen`. `weight`: of the floor's acceleration, in the units of the series. Not `always`:
 // only in lanes where the value at the start comes close to `seen`, whatever the other lanes do. `lift`: vertical acceleration of
-// the floor, in the units of the series. `along`: what of its acceleration is gravity along it.
+// the floor, in the units of the series. `along`: the part of `a` that is gravity along the
+// floor, and no acceleration.
 template <class Step, class Gravity, class Lift = Level>
 [[gnu::always_inline]] inline Pack watch_force(const Step& y, const Pack& weight, const Gravity& gravity,
                                                const Pack& push, const Pack& a, const Pack& rate_a, const RockEnd& end,

@@ -308,6 +308,7 @@ class SlideRockLane {
   void look_at_law() {
     if (!c_.law) return;
     for (const int sigma : {-1, 1}) mu_s_[sigma > 0] = c_.mu_s * friction_factor_outside(*c_.law, {0, path_, sigma});
+    if (!(mu_s_[0] >= 0 && mu_s_[1] >= 0)) return decline();
     more_bent_ = bent_share(larger(mu_s_[0], mu_s_[1])) / bent_share(c_.mu_s);
   }
 
@@ -379,7 +380,7 @@ class SlideRockLane {
   CornerConstants corner_constants_[2];  // on the left corner, on the right one
   HopBounds bounds_;
   double mu_s_[2];        // of slips to the left, and to the right, that begin
-  double more_bent_ = 1;  // what forces do within an interval, against the bounds of the corners' constants
+  double more_bent_ = 1;  // factor on the corners' curvatures, where the law makes mu_s larger
   bool sticks_;           // impacts of a corner that sticks make none slip
   Mode mode_ = Mode::rest;
   int m_ = 0, side_ = 0, sigma_ = 0;

@@ -14,7 +14,7 @@ struct SlideRockRows {
   using Gravity = Field;
   alignas(64) double theta[march_slots], omega[march_slots], rx[march_slots], ry[march_slots];
   alignas(64) double a[march_slots];                               // unit record, at the knot, and the slope
-  alignas(64) double slope[march_slots];                           // gravity along the floor, of the unit record
+  alignas(64) double slope[march_slots];                           // gravity along the floor, in units of the record
   alignas(64) double fraction[march_slots];                        // part of the interval that lies ahead
   alignas(64) double grip[march_slots], square[march_slots];       // mu_s f_y - |f_x|, squared acceleration, there
   alignas(64) double gravity[march_slots], push[march_slots];      // g h^2/J, scale h^2/J

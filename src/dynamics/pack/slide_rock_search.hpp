@@ -92,8 +92,8 @@ inline int first_loud(const MotionTable& t, int from, double scale, double lift,
   return t.knots;
 }
 
-// A block that slides in direction sigma (of the unit record) from knot m on with speed sigma w > 0, slowed by friction
-// G = mu_k g h a knot, all over the record's scale: the first knot j >= m at which its speed
+// A block that slides in direction sigma (of the unit record) from knot m on with speed sigma w > 0, slowed by friction and slope:
+// G = (mu_k g + sigma g_along) h a knot, which may be negative, all over the record's scale: the first knot j >= m at which its speed
 //     sigma w_j = sigma (w + V_m - V_j) - G (j - m)
 // is not above the margin of the table, so that it certainly slides on up to knot j - 1.
 inline int first_doubt(const MotionTable& t, int m, double w, double sigma, double G) {

@@ -61,6 +61,12 @@ class SlideRockTrajectory : public SlideRockHops {
         return;
       }
       feel_rest(t_.knots);
+      if (magnitude(c_.along) > quiet(c_.along, c_.g)) {  // the floor's last push held it on its slope
+        m_ = last_;
+        stand_at_knot();
+        event();
+        return choose_flat();
+      }
     }
     ended_ = true;
     end_ = m_ < last_ ? h_ * last_ : larger(now(), hops_end_);
@@ -273,7 +279,7 @@ class SlideRockTrajectory : public SlideRockHops {
       Forces f = rocking(-arm(side), c_.h, 0.0, field());
       const bool grips = w == 0 && magnitude(f.fx) <= mu_s_against(f.fx) * f.fy;
       sigma_ = grips ? 0 : w > 0 || (w == 0 && f.fx < 0) ? 1 : -1;
-      if (!grips) f = slipping(-arm(side), c_.h, 0.0, field(), w);
+      if (!grips) f = slipping(-arm(side), c_.h, 0.0, field(), w, row.slid);
       const double half_curvature = 0.5 * side * f.alpha;
       if (!(f.fy > 0)) return false;
       if (row.felt) feel(f.fx, f.fy);
@@ -284,6 +290,7 @@ class SlideRockTrajectory : public SlideRockHops {
       const double time = slips_on ? fall : stops;
       if (m_ < last_ && !(time < h_ * fraction_)) return false;  // the floor decides what becomes of it
       row.lasts += time;
+      row.slid += grips ? 0 : time * magnitude(w + 0.5 * f.slip * time);
       height += time * (rate + time * half_curvature);
       rate += 2 * half_curvature * time;
       w = slips_on ? w + time * f.slip : 0;
