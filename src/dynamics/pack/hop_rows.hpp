@@ -35,9 +35,10 @@ struct HopRows {
   }
   void retire(int i) { push[i] = -1; }
   auto all() {
-    return std::array{theta,    omega,     side,      a, slope,        fraction,      limit2,        push,    hops,
-                      impacts,  ended,     weight[0], tip[0],   kappa[0],      kappa_by_a[0], kept[0], told[0],
-                      rests[0], weight[1], tip[1],    kappa[1], kappa_by_a[1], kept[1],       told[1], rests[1]};
+    return std::array{theta,         omega,   side,    a,        slope,     fraction, limit2,
+                      push,          hops,    impacts, ended,    weight[0], tip[0],   kappa[0],
+                      kappa_by_a[0], kept[0], told[0], rests[0], weight[1], tip[1],   kappa[1],
+                      kappa_by_a[1], kept[1], told[1], rests[1]};
   }
 };
 

@@ -33,7 +33,8 @@ class Hopping : public LaneGroup<HopRows<Gravity>> {
     const Pack zero(0.0), one(1.0), two(2.0);
     const Pack fraction = load(r_.fraction + i), theta = load(r_.theta + i), omega = load(r_.omega + i),
                a = load(r_.a + i);
-    const Pack a_next = fetch(r_.next + i) + load(r_.slope + i), rate = (a_next - a) / fraction, side = load(r_.side + i);
+    const Pack a_next = fetch(r_.next + i) + load(r_.slope + i), rate = (a_next - a) / fraction,
+               side = load(r_.side + i);
     const PackMask right = side > zero;
     const auto on = [&](const double(&row)[2][march_slots]) {
       return choose(right, load(row[1] + i), load(row[0] + i));
