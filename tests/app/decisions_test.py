@@ -77,7 +77,7 @@ class Risk(InFolder):
         refused(2, HAZARD.replace("pga_g", "pgv_mps"), "bad.csv:1: the curve is over pgv_mps", "was fitted over pga_g")
         refused(2, "pga_g,annual_rate\n20,0.5\n30,0.1\n", "share no intensity")
         self.fail_with(3, ["risk", self.out, "--hazard", self.folder / "none.csv", "-o", self.folder / "no"], "none.csv")
-        self.fail_with(2, ["risk", self.folder, "--hazard", self.hazard, "-o", self.folder / "no"], "has no fragility.h5")
+        self.fail_with(3, ["risk", self.folder, "--hazard", self.hazard, "-o", self.folder / "no"], "has no fragility.h5")
         self.fail_with(2, ["risk", self.out, "--hazard", self.hazard, "-o", self.folder / "no", "--years", -1], "--years -1")
 
 
