@@ -168,41 +168,30 @@ class Mpirun(Stage):
         self.environment["FREESTAND"] = "/nowhere/freestand"
         self.assertEqual(self.run_script(self.script, "s.yaml", "x").returncode, 2)
 
-    def test_termination_becomes_a_request_to_stop(self):
-        self.stand_in("mpirun", "trap 'exit 75' USR1\ntrap 'exit 99' TERM\nfor i in $(seq 200); do sleep 0.05; done")
-        process = subprocess.Popen([self.script, "s.yaml", self.folder / "new"], stdout=subprocess.PIPE, env=self.environment)
-        for _ in range(200):
-            if self.called("mpirun"):
-                break
-            time.sleep(0.02)
-        time.sleep(0.2)
-        process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=30)
-        self.assertEqual(process.returncode, 75)
-
-    def test_a_request_that_comes_while_mpirun_starts_is_not_lost(self):
-        self.stand_in("mpirun", "trap '' USR1\nsleep 1\ntrap 'exit 75' USR1\nfor i in $(seq 200); do sleep 0.05; done; exit 98")
-        process = subprocess.Popen([self.script, "s.yaml", self.folder / "new"], stdout=subprocess.PIPE, env=self.environment)
-        for _ in range(200):
-            if self.called("mpirun"):
-                break
-            time.sleep(0.02)
-        time.sleep(0.2)
-        process.send_signal(signal.SIGTERM)
-        process.communicate(timeout=30)
-        self.assertEqual(process.returncode, 75)
-
-    def test_so_does_what_a_terminal_sends_to_all_that_it_started(self):
-        self.stand_in("mpirun", "trap 'exit 75' USR1\ntrap 'exit 1' INT\nfor i in $(seq 200); do sleep 0.05; done")
+    def code_when_asked(self, mpirun, ask):
+        """What the script ends with where ask(process) comes a little after this stand-in of mpirun has started."""
+        self.stand_in("mpirun", mpirun)
         process = subprocess.Popen([self.script, "s.yaml", self.folder / "new"], stdout=subprocess.PIPE, env=self.environment, start_new_session=True)
         for _ in range(200):
             if self.called("mpirun"):
                 break
             time.sleep(0.02)
         time.sleep(0.2)
-        os.killpg(process.pid, signal.SIGINT)
+        ask(process)
         process.communicate(timeout=30)
-        self.assertEqual(process.returncode, 75)
+        return process.returncode
+
+    def test_termination_becomes_a_request_to_stop(self):
+        mpirun = "trap 'exit 75' USR1\ntrap 'exit 99' TERM\nfor i in $(seq 200); do sleep 0.05; done"
+        self.assertEqual(self.code_when_asked(mpirun, lambda process: process.send_signal(signal.SIGTERM)), 75)
+
+    def test_a_request_that_comes_while_mpirun_starts_is_not_lost(self):
+        mpirun = "trap '' USR1\nsleep 1\ntrap 'exit 75' USR1\nfor i in $(seq 200); do sleep 0.05; done; exit 98"
+        self.assertEqual(self.code_when_asked(mpirun, lambda process: process.send_signal(signal.SIGTERM)), 75)
+
+    def test_so_does_what_a_terminal_sends_to_all_that_it_started(self):
+        mpirun = "trap 'exit 75' USR1\ntrap 'exit 1' INT\nfor i in $(seq 200); do sleep 0.05; done"
+        self.assertEqual(self.code_when_asked(mpirun, lambda process: os.killpg(process.pid, signal.SIGINT)), 75)
 
 
 class Slurm(Stage):

@@ -323,11 +323,12 @@ TEST(StudyMistakes, InTheSweep) {
 }
 
 TEST(StudyMistakes, ACaseIsNoStudy) {
-  const std::string motion = "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n";
-  EXPECT_EQ(problems(block + friction + motion),
+  EXPECT_EQ(problems(block + friction + "motion: {pulse: B, period_s: 0.5, peak_acceleration_g: 0.6}\n"),
             "folder/some.yaml:3: motion is what a case has (a study has motions): write motions, or give a case to "
             "`freestand simulate`");
-  EXPECT_THAT(case_problems(sound), HasSubstr("one.yaml:3: motions is what a study has (a case has motion): write"));
+  EXPECT_EQ(case_problems(sound),
+            "one.yaml:3: motions is what a study has (a case has motion): write motion, or give a study to "
+            "`freestand run`");
 }
 
 TEST(StudyMistakes, InYamlItself) {
