@@ -83,13 +83,11 @@ bool too_steep(const SlipLaw& law, const Specimen& specimen, const Shaking& shak
   return steepest_exponent(law, change, t.step_s) > largest_exponent;
 }
 
-bool vertical_covered(const Specimen& specimen, const Shaking& shaking) {
-  return (specimen.model == Model::slide_rock || specimen.model == Model::slide) &&
-         !shaking.motion->table->vertical.empty();
-}
-
-bool slope_covered(const Specimen& specimen) {
-  return specimen.model == Model::slide_rock || specimen.model == Model::slide;
+// Kernels know vertical shaking, or a slope, of a block that slides, under constant friction.
+bool floor_covered(const Specimen& specimen, const Shaking& shaking, bool law, bool shaken, bool slopes) {
+  const bool slides = specimen.model == Model::slide_rock || specimen.model == Model::slide;
+  if (shaken && (slopes || shaking.motion->table->vertical.empty())) return false;
+  return !(shaken || slopes) || (slides && !law);
 }
 
 // False: no kernel covers it. `law`: of friction, where it has one. Of a block that only slides nothing else is set than
@@ -101,9 +99,7 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
   if (law && too_steep(*law, specimen, shaking)) return false;
   const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty(),
              slopes = floor.push_mps2 != 0;
-  if ((shaken && (law || !vertical_covered(specimen, shaking))) ||
-      (slopes && (law || shaken || !slope_covered(specimen))))
-    return false;
+  if (!floor_covered(specimen, shaking, law.has_value(), shaken, slopes)) return false;
   const bool exact = !law && specimen.model != Model::bouc_wen;
   if (settings.tolerance < (exact ? least_tolerance : least_of_laws) || settings.event_limit < 10000) return false;
   if (specimen.model == Model::bouc_wen) return covered_bouc_wen(specimen, shaking, floor, settings, c);

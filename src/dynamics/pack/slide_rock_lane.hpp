@@ -70,8 +70,7 @@ class SlideRockLane {
     const double alpha = (rx_ * g_ - ry_ * a_) * corner.per_inertia, omega2 = omega_ * omega_;
     const double fx = ry_ * alpha - rx_ * omega2 + a_, lift = (g_ - c_.g) - rx_ * alpha - ry_ * omega2;
     r.grip[i] = (mu_s_against(fx) * (c_.g + lift) - magnitude(fx)) * h2;
-    const double ax = fx - c_.along;
-    r.square[i] = (ax * ax + lift * lift) * (h2 * h2);
+    r.square[i] = square_of(fx - c_.along, lift) * (h2 * h2);
     r.seen[i] = force2_ * (h2 * h2);
     // Rotations that add less than peak_slip - s xi to the slip; 1 - cos(theta) <= theta^2/2.
     r.room[i] = room_ = larger(peak_slip_ - s * xi_, 0);
