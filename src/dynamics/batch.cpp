@@ -12,6 +12,7 @@
 #include "dynamics/bouc_wen.hpp"
 #include "dynamics/integration.hpp"
 #include "dynamics/law_lanes.hpp"
+#include "dynamics/linear_pull.hpp"
 #include "dynamics/overturned.hpp"
 #include "dynamics/simulate.hpp"
 
@@ -83,11 +84,30 @@ bool too_steep(const SlipLaw& law, const Specimen& specimen, const Shaking& shak
   return steepest_exponent(law, change, t.step_s) > largest_exponent;
 }
 
-// Kernels know vertical shaking, or a slope, of a block that slides, under constant friction.
-bool floor_covered(const Specimen& specimen, const Shaking& shaking, bool law, bool shaken, bool slopes) {
+// Kernels know vertical shaking, or a slope, or a pull along the floor, of a block that slides, under constant friction.
+bool floor_covered(const Specimen& specimen, const Shaking& shaking, bool law, bool shaken, bool slopes, bool pulled) {
   const bool slides = specimen.model == Model::slide_rock || specimen.model == Model::slide;
-  if (shaken && (slopes || shaking.motion->table->vertical.empty())) return false;
-  return !(shaken || slopes) || (slides && !law);
+  if (shaken && shaking.motion->table->vertical.empty()) return false;
+  const int kinds = shaken + slopes + pulled;
+  return kinds == 0 || (kinds == 1 && slides && !law);
+}
+
+// The packs' bounds rest on what bends little within an interval: a pull whose terms fall as 1/k! at least.
+bool too_stiff(const LinearPull& pull, const Shaking& shaking) {
+  const double step = shaking.motion->table->step_s;
+  return !(std::sqrt(pull.stiffness) * step < 1 && pull.drag * step < 1);
+}
+
+// The laws as kernels know them, in `law` or `pull`; false: they are others.
+bool laws_covered(const Specimen& specimen, const Shaking& shaking, std::optional<SlipLaw>& law,
+                  std::optional<LinearPull>& pull) {
+  if (!has_laws(specimen)) return true;
+  if (specimen.model == Model::bouc_wen) return false;
+  const Laws laws(specimen);
+  law = slip_law(laws);
+  if (law) return !too_steep(*law, specimen, shaking);
+  pull = linear_pull(laws);
+  return pull && !too_stiff(*pull, shaking);
 }
 
 // False: no kernel covers it. `law`: of friction, where it has one. Of a block that only slides nothing else is set than
@@ -95,20 +115,21 @@ bool floor_covered(const Specimen& specimen, const Shaking& shaking, bool law, b
 bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput& floor, const Settings& settings,
              BatchCase& c, std::optional<SlipLaw>& law) {
   if (!shaking.motion || !shaking.motion->table || shaking.stretch != 1 || settings.slip_by_side) return false;
-  if (has_laws(specimen) && (specimen.model == Model::bouc_wen || !(law = slip_law(Laws(specimen))))) return false;
-  if (law && too_steep(*law, specimen, shaking)) return false;
+  std::optional<LinearPull> pull;
+  if (!laws_covered(specimen, shaking, law, pull)) return false;
   const bool shaken = shaking.vertical_scale != 0 && !shaking.motion->vertical_mps2.empty(),
              slopes = floor.push_mps2 != 0;
-  if (!floor_covered(specimen, shaking, law.has_value(), shaken, slopes)) return false;
-  const bool exact = !law && specimen.model != Model::bouc_wen;
+  if (!floor_covered(specimen, shaking, law.has_value(), shaken, slopes, pull.has_value())) return false;
+  const bool exact = !law && !pull && specimen.model != Model::bouc_wen;
   if (settings.tolerance < (exact ? least_tolerance : least_of_laws) || settings.event_limit < 10000) return false;
   if (specimen.model == Model::bouc_wen) return covered_bouc_wen(specimen, shaking, floor, settings, c);
   if (!admissible(specimen, shaking, floor, settings)) return false;
-  if (specimen.model == Model::slide && !law && !shaken && !slopes) {
+  if (specimen.model == Model::slide && exact && !shaken && !slopes) {
     c.table = shaking.motion->table.get();
     c.scale = shaking.scale;
     c.vertical_scale = 0;
     c.law = nullptr;
+    c.stiffness = c.drag = 0;
     c.mu_s = specimen.friction.mu_s;
     c.mu_k = specimen.friction.mu_k;
     c.g = standard_gravity_mps2 * floor.gravity_factor;
@@ -138,6 +159,7 @@ bool covered(const Specimen& specimen, const Shaking& shaking, const FloorInput&
        settings.tolerance,
        coulomb,
        nullptr};
+  if (pull) c.stiffness = pull->stiffness, c.drag = pull->drag;
   if (specimen.model == Model::slide) c.left = c.right = endless_base * c.h;
   return true;
 }
@@ -165,9 +187,10 @@ double step_in_own_time(const BatchCase& c) {
 
 // Null: one by one.
 BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, const BatchCase& c, bool law) {
-  const bool shaken = c.vertical_scale != 0;
+  const bool shaken = c.vertical_scale != 0, pulled = c.stiffness != 0 || c.drag != 0;
   if (specimen.model == Model::slide)
-    return shaken         ? kernels.slide_rock_shaken
+    return pulled         ? kernels.slide_rock_pulled
+           : shaken       ? kernels.slide_rock_shaken
            : law          ? kernels.slide_rock_by_slip
            : c.along != 0 ? kernels.slide_rock
                           : kernels.slide;
@@ -177,6 +200,7 @@ BatchKernel kernel_of(const BatchKernels& kernels, const Specimen& specimen, con
   if (!(step < longest_step(coarse_step, 9, c.tolerance))) return nullptr;
   const bool fine = step < longest_step(fine_step, 7, c.tolerance);
   if (specimen.model == Model::rock) return fine ? kernels.rock : kernels.rock_coarse;
+  if (pulled) return fine ? kernels.slide_rock_pulled : kernels.slide_rock_pulled_coarse;
   if (shaken) return fine ? kernels.slide_rock_shaken : kernels.slide_rock_shaken_coarse;
   if (law) return fine ? kernels.slide_rock_by_slip : kernels.slide_rock_by_slip_coarse;
   return fine ? kernels.slide_rock : kernels.slide_rock_coarse;

@@ -16,7 +16,7 @@
 
 namespace freestand::dynamics {
 
-// One sample as the kernels read it. Of a slope of the floor, vertical shaking and a law of friction at most one.
+// One sample as the kernels read it. Of a slope of the floor, vertical shaking, a law of friction, and spring with drag at most one.
 struct BatchCase {
   const MotionTable* table;
   double scale;               // of the record
@@ -30,6 +30,8 @@ struct BatchCase {
   double tolerance;
   bool coulomb;        // impact law
   const SlipLaw* law;  // of friction, times mu_s and mu_k; null: there is none. None with Coulomb's impacts
+  double stiffness = 0,
+         drag = 0;  // along the floor, per mass: of the slip u of the middle of the base, and of u' [1/s2], [1/s]
 };
 
 // Computes `count` samples; sets declined[i] where sample i needs the text for single samples.
@@ -43,6 +45,7 @@ struct BatchKernels {
   // Friction follows the slip; all cases of a call have laws of one shape.
   BatchKernel slide_rock_by_slip, slide_rock_by_slip_coarse;
   BatchKernel slide_rock_shaken, slide_rock_shaken_coarse;  // the floor shakes vertically
+  BatchKernel slide_rock_pulled, slide_rock_pulled_coarse;  // by a spring, or a drag, along the floor
   BatchKernel bouc_wen;                                     // with kappa = 0
   const LawMarch (*under_laws)[2], (*on_pulses)[2];         // [turns][slips]
   const PlaneMarch (*in_plane)[2];                          // [elliptic friction][the floor shakes vertically]

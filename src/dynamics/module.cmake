@@ -1,6 +1,7 @@
 # The kernels of whole blocks, once per instruction set. A portable build (x86-64-v2) holds three and picks at run time.
 function(freestand_kernels ISA)
   add_library(freestand_kernels_${ISA} OBJECT ${CMAKE_SOURCE_DIR}/src/dynamics/pack/kernels.cpp
+              ${CMAKE_SOURCE_DIR}/src/dynamics/pack/pulled_kernels.cpp
               ${CMAKE_SOURCE_DIR}/src/dynamics/pack/shaken_kernels.cpp
               ${CMAKE_SOURCE_DIR}/src/dynamics/pack/law_kernels.cpp
               ${CMAKE_SOURCE_DIR}/src/dynamics/pack/plane_kernels.cpp

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <freestand/simulate.hpp>
 #include <limits>
 #include <numeric>
@@ -22,6 +21,7 @@
 #include "support/keyed_random.hpp"
 #include "support/random_cases.hpp"
 #include "support/repeats.hpp"
+#include "support/same_bits.hpp"
 #include "support/slip_laws.hpp"
 
 namespace freestand::test {
@@ -63,15 +63,6 @@ std::vector<Response> compute(const Samples& block, double tolerance = 1e-9) {
   std::vector<Response> responses(block.specimens.size());
   respond_batch(block.specimens, block.shakings, {.tolerance = tolerance}, responses);
   return responses;
-}
-
-bool same_bits(const Response& a, const Response& b) {
-  const auto same = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
-  return a.outcome == b.outcome && same(a.peak_slip_m, b.peak_slip_m) && same(a.residual_slip_m, b.residual_slip_m) &&
-         same(a.slid_path_m, b.slid_path_m) && same(a.peak_rotation_rad, b.peak_rotation_rad) &&
-         same(a.residual_rotation_rad, b.residual_rotation_rad) &&
-         same(a.peak_acceleration_mps2, b.peak_acceleration_mps2) && a.impacts == b.impacts && a.events == b.events &&
-         same(a.end_time_s, b.end_time_s);
 }
 
 int differing(const std::vector<Response>& a, const std::vector<Response>& b) {
@@ -273,6 +264,12 @@ const Kind kinds[] = {{"Slide", Model::slide},
                       {"SlideRockBySpeed", Model::slide_rock, With::speed},
                       {"SlideByPath", Model::slide, With::path},
                       {"SlideRockByPath", Model::slide_rock, With::path},
+                      {"SlideOnSpring", Model::slide, With::spring},
+                      {"SlideRockOnSpring", Model::slide_rock, With::spring},
+                      {"SlideRockWithDrag", Model::slide_rock, With::drag},
+                      {"SlideWithSpringAndDrag", Model::slide, With::spring_and_drag},
+                      {"SlideRockWithSpringAndDrag", Model::slide_rock, With::spring_and_drag},
+                      {"SlideRockOnSpringWithCoulomb", Model::slide_rock, With::spring, true},
                       {"SlideByDirection", Model::slide, With::direction},
                       {"SlideRockByDirection", Model::slide_rock, With::direction},
                       {"SlideByAllOfSlip", Model::slide, With::all_of_slip},

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <freestand/simulate.hpp>
 #include <limits>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "support/bouc_wen_cases.hpp"
 #include "support/isa.hpp"
 #include "support/repeats.hpp"
+#include "support/same_bits.hpp"
 
 namespace freestand::test::bouc_wen_batch_test {
 namespace {
@@ -40,13 +40,6 @@ std::vector<Response> compute(const Samples& block, const Settings& settings = {
   std::vector<Response> responses(block.specimens.size());
   respond_batch(block.specimens, block.shakings, settings, responses);
   return responses;
-}
-
-bool same_bits(const Response& a, const Response& b) {
-  const auto same = [](double x, double y) { return std::memcmp(&x, &y, sizeof x) == 0; };
-  return a.outcome == b.outcome && same(a.peak_slip_m, b.peak_slip_m) && same(a.residual_slip_m, b.residual_slip_m) &&
-         same(a.slid_path_m, b.slid_path_m) && same(a.peak_acceleration_mps2, b.peak_acceleration_mps2) &&
-         a.events == b.events && same(a.end_time_s, b.end_time_s);
 }
 
 double difference(const Response& a, const Response& b, double yield) {

@@ -1,5 +1,6 @@
-// Effects of the floor and of a slip that packs of samples know. Friction that follows the slip: of its speed, in two shapes: a drop p0 of the coefficient over a speed p1 [m/s]; of its path: p0 of it is
-// left after a path p1 [m]; of its direction: an excess p0 against slips to the right; and of all three.
+// Effects of the floor and of a slip that packs of samples know. Friction that follows the slip: of its speed, in two shapes: a drop p0 of
+// the coefficient over a speed p1 [m/s]; of its path: p0 of it is left after a path p1 [m]; of its direction: an excess p0 against slips to
+// the right; and of all three. A spring p0 [1/s2] and a drag p1 [1/s] along the floor.
 #pragma once
 
 #include <cmath>
@@ -27,13 +28,16 @@ inline const dynamics::Effect of_all{.name = "of_all", .friction = [](const dyna
                                               (1.0 + 0.5 * at.path);
                                      }};
 
+inline const dynamics::Effect pulled{
+    .name = "pulled", .force = [](const dynamics::At& at, const auto& p) { return -p[0] * at.u - p[1] * at.v; }};
+
 inline const dynamics::Effect slope{.name = "slope", .floor = [](dynamics::FloorInput& floor, const auto& p) {
                                       floor.push_mps2 += standard_gravity_mps2 * std::sin(p[0]);
                                       floor.gravity_factor *= std::cos(p[0]);
                                     }};
 
 // What the samples of a block have besides. Laws of the speed fall, or rise, in two shapes that come in turns.
-enum class With { nothing, speed, path, direction, all_of_slip, slope };
+enum class With { nothing, speed, path, spring, drag, spring_and_drag, direction, all_of_slip, slope };
 
 inline EffectUse effect_with(With with, std::size_t i) {
   KeyedRandom random(171, i);
@@ -43,6 +47,12 @@ inline EffectUse effect_with(With with, std::size_t i) {
       return {i % 3 == 0 ? &rational : &exponential, {drop, speed}};
     case With::path:
       return {&worn, {1 - drop, speed}};
+    case With::spring:
+      return {&pulled, {random.log_uniform(0.5, 100), 0}};
+    case With::drag:
+      return {&pulled, {0, random.log_uniform(0.1, 10)}};
+    case With::spring_and_drag:
+      return {&pulled, {random.log_uniform(0.5, 100), random.log_uniform(0.1, 10)}};
     case With::direction:
       return {&one_sided, {0.8 * drop}};
     case With::all_of_slip:

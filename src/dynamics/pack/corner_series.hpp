@@ -2,7 +2,7 @@
 #pragma once
 
 #include "dynamics/pack/gravity.hpp"
-#include "dynamics/pack/polynomials.hpp"
+#include "dynamics/pack/pull.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -15,17 +15,6 @@ Real versine(const Real& theta) {
 #pragma GCC unroll 16
   for (int k = 10; k >= 2; --k) sum = Real(1.0) - square * Real(1.0 / (2 * k * (2 * k - 1))) * sum;
   return Real(0.5) * square * sum;
-}
-
-// sum_i a_i b_{k-i}, those terms last that are known last, so that little waits for them.
-template <class Real>
-[[gnu::always_inline]] inline Real convolution(const Real* a, const Real* b, int k) {
-  if (k == 0) return a[0] * b[0];
-  if (k == 1) return a[0] * b[1] + a[1] * b[0];
-  Real sum = a[1] * b[k - 1];
-#pragma GCC unroll 16
-  for (int i = 2; i < k; ++i) sum = sum + a[i] * b[k - i];
-  return sum + (a[0] * b[k] + a[k] * b[0]);
 }
 
 // sum_{i>0} a_i b_{k-i}; last = a_k, which may be known last.
@@ -44,13 +33,21 @@ template <int N, class Real = double>
 struct CornerSeries : Polynomials<Real> {
   Real theta[N + 2], omega[N + 2], xi[N + 2], w[N + 2], rx[N + 1], ry[N + 1];
 
-  // gravity = g' (dynamics/pack/gravity.hpp), a0, a1: times hs^2/J.
-  template <class Gravity>
-  void rock(const Gravity& gravity, const Real& a0, const Real& a1) {
+  // gravity = g' (dynamics/pack/gravity.hpp), a0, a1: times hs^2/J; per: of the units of the pull to those.
+  template <class Gravity, class Pull>
+  void rock(const Gravity& gravity, const Real& a0, const Real& a1, Pull& pull, const Real& per) {
+    Real a[N + 1];  // of the floor and the pull together
 #pragma GCC unroll 16
     for (int k = 0; k <= N; ++k) {
-      Real alpha = times(rx, k, gravity) - ry[k] * a0;
-      if (k > 0) alpha = alpha - ry[k - 1] * a1;
+      Real alpha = times(rx, k, gravity);
+      if constexpr (Pull::pulls) {
+        a[k] = per * pull.advance(k, convolution(ry, omega, k), convolution(rx, omega, k));
+        if (k < 2) a[k] = a[k] + (k == 0 ? a0 : a1);
+        alpha = alpha - convolution(ry, a, k);
+      } else {
+        alpha = alpha - ry[k] * a0;
+        if (k > 0) alpha = alpha - ry[k - 1] * a1;
+      }
       const Real over(1.0 / (k + 1));
       theta[k + 1] = omega[k] * over;
       omega[k + 1] = alpha * over;
@@ -64,14 +61,14 @@ struct CornerSeries : Polynomials<Real> {
   // The pull of the corner, per mass: f_y = g' + r_y'' and T = sigma mu_k F f_y, as k^2 omega' = r_x f_y + r_y T; and
   // (w + r_x')' = -T - a. sigma_mu = sigma mu_k; gravity, a0, a1 times hs^2. to_speed = sigma/hs makes w the speed |w|
   // that the factor F on friction may ask for (dynamics/pack/friction.hpp).
-  template <class Gravity, class Factor>
+  template <class Gravity, class Factor, class Pull>
   void slide_rock(const Gravity& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
-                  const Real& to_speed, Factor& factor) {
-    factor.expand([&](auto& f) { slide_rock_by(gravity, a0, a1, k2, sigma_mu, to_speed, f); });
+                  const Real& to_speed, Factor& factor, Pull& pull, const Real& per) {
+    factor.expand([&](auto& f) { slide_rock_by(gravity, a0, a1, k2, sigma_mu, to_speed, f, pull, per); });
   }
-  template <class Gravity, class Factor>
+  template <class Gravity, class Factor, class Pull>
   void slide_rock_by(const Gravity& gravity, const Real& a0, const Real& a1, const Real& k2, const Real& sigma_mu,
-                     const Real& to_speed, Factor& factor) {
+                     const Real& to_speed, Factor& factor, Pull& pulls, const Real& per) {
     Real fy[N + 1], pull[N + 1];
     Real mu = sigma_mu;
     if constexpr (Factor::varies) {
@@ -100,6 +97,8 @@ struct CornerSeries : Polynomials<Real> {
       if (Factor::varies && k > 0) pull[k] = pull[k] + more;
       Real slip = pull[k];
       if (k < 2) slip = slip + (k == 0 ? a0 : a1);
+      if constexpr (Pull::pulls)
+        slip = slip + per * pulls.advance_slipping(k, w[k], Real(k + 1.0) * ahead_x, Real(-(k + 1.0)) * ahead_y);
       theta[k + 1] = omega[k] * over;
       omega[k + 1] = alpha * over;
       xi[k + 1] = w[k] * over;

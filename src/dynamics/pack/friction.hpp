@@ -29,7 +29,7 @@ struct NoFactor {
 // F of the first N + 1 coefficients of the speed. Constants: value(i) and shift(i) of node i, exponential(x), and of the slip the path
 // until now and the direction. sigma: sigma w is positive.
 template <int N, class Real, class Constants>
-class SlipFactor {
+class SlipFactor : Polynomials<Real> {
  public:
   static constexpr bool varies = true;
   SlipFactor(const SlipLaw& law, const Constants& constants, const Real& sigma)
@@ -85,33 +85,13 @@ class SlipFactor {
     }
   }
 
-  const Real* factor() const { return at_[law_.place()]; }
+  const Real (&factor() const)[N + 1] { return at_[law_.place()]; }
   Real first() const { return factor()[0]; }
   Real first_rate() const { return factor()[1]; }
-  Real last() const {
-    Real sum = factor()[N];
-#pragma GCC unroll 16
-    for (int k = N - 1; k >= 0; --k) sum = sum + factor()[k];
-    return sum;
-  }
-  Real at(const Real& x) const {
-    Real value = factor()[N];
-#pragma GCC unroll 16
-    for (int k = N - 1; k >= 0; --k) value = value * x + factor()[k];
-    return value;
-  }
-  Real rate_at(const Real& x) const {
-    Real value = Real(double(N)) * factor()[N];
-#pragma GCC unroll 16
-    for (int k = N - 1; k >= 1; --k) value = value * x + Real(double(k)) * factor()[k];
-    return value;
-  }
-  Real last_rate() const {
-    Real sum = Real(double(N)) * factor()[N];
-#pragma GCC unroll 16
-    for (int k = N - 1; k >= 1; --k) sum = sum + Real(double(k)) * factor()[k];
-    return sum;
-  }
+  Real last() const { return this->sum(factor()); }
+  Real at(const Real& x) const { return Polynomials<Real>::at(factor(), x); }
+  Real rate_at(const Real& x) const { return Polynomials<Real>::rate_at(factor(), x); }
+  Real last_rate() const { return this->rate_sum(factor()); }
 
  private:
   // F = p + e, e = q exp(r |w| + s), e' = r |w|' e.

@@ -46,7 +46,7 @@ class Hopping : public LaneGroup<HopRows<Gravity>> {
     const PackMask holds = shakes.holds((top * top < load(r_.limit2 + i) * (low * low)) &
                                         (xsimd::max(xsimd::abs(a), xsimd::abs(a_next)) <= load(r_.push + i)));
     const HopSeries y(theta, omega, beta, shakes.beta_rate(tip * rate), shakes.kappa(on(r_.kappa) - kappa_by_a * a),
-                      shakes.kappa_rate(zero - kappa_by_a * rate));
+                      shakes.kappa_rate(zero - kappa_by_a * rate), shakes.pull());
     const Pack end = y.height(fraction);
     const PackMask crosses = holds & (end > zero);
     PackMask open = holds & ~crosses;

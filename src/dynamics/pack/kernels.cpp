@@ -3,6 +3,7 @@
 #include "dynamics/pack/bouc_wen.hpp"
 #include "dynamics/pack/law_kernels.hpp"
 #include "dynamics/pack/plane_kernels.hpp"
+#include "dynamics/pack/pulled_kernels.hpp"
 #include "dynamics/pack/rock.hpp"
 #include "dynamics/pack/shaken_kernels.hpp"
 #include "dynamics/pack/slide.hpp"
@@ -21,6 +22,8 @@ const BatchKernels kernels{FREESTAND_ISA_NAME,
                            slide_rock_samples<8, 8, BySlip>,
                            slide_rock_shaken,
                            slide_rock_shaken_coarse,
+                           slide_rock_pulled,
+                           slide_rock_pulled_coarse,
                            bouc_wen_samples,
                            law_marches,
                            pulse_marches,

@@ -23,7 +23,7 @@ template <class Rows>
 void copy_lane(Rows& rows, int to, Rows& other, int from) {
   copy_each(rows.all(), to, other.all(), from);
   if constexpr (requires { rows.law; }) rows.law.copy(to, other.law, from);
-  if constexpr (Rows::Gravity::shaken) copy_each(rows.shakes.all(), to, other.shakes.all(), from);
+  if constexpr (requires { rows.shakes.all(); }) copy_each(rows.shakes.all(), to, other.shakes.all(), from);
   rows.next[to] = other.next[from];
   rows.stop[to] = other.stop[from];
 }

@@ -7,7 +7,7 @@
 
 #include "base/pack.hpp"
 #include "dynamics/pack/gravity.hpp"
-#include "dynamics/pack/polynomials.hpp"
+#include "dynamics/pack/pull.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -22,17 +22,28 @@ struct RockSeries : Polynomials<Pack> {
   Pack theta[N + 2], omega[N + 2], rx[N + 1], ry[N + 1];  // the rotation to one order more
 
   // gravity = g' h^2/J (dynamics/pack/gravity.hpp); a0, a1: floor acceleration and its rate, times h^2/J.
-  template <class Gravity>
-  void expand(const Gravity& gravity, const Pack& a0, const Pack& a1) {
+  // per: of the units of the pull to those.
+  template <class Gravity, class Pull>
+  [[gnu::always_inline]] void expand(const Gravity& gravity, const Pack& a0, const Pack& a1, Pull& pull,
+                                     const Pack& per) {
+    Pack a[N + 1];  // of the floor and the pull together
 #pragma GCC unroll 16
     for (int k = 0; k < N; ++k) {
       const Pack over(1.0 / (k + 1));
-      Pack alpha = times(rx, k, gravity) - ry[k] * a0, x = ry[0] * omega[k], y = rx[0] * omega[k];
-      if (k > 0) alpha = alpha - ry[k - 1] * a1;
+      Pack alpha = times(rx, k, gravity), x = ry[0] * omega[k], y = rx[0] * omega[k];
+      if constexpr (!Pull::pulls) {
+        alpha = alpha - ry[k] * a0;
+        if (k > 0) alpha = alpha - ry[k - 1] * a1;
+      }
 #pragma GCC unroll 16
       for (int i = 1; i <= k; ++i) {
         x = x + ry[i] * omega[k - i];
         y = y + rx[i] * omega[k - i];
+      }
+      if constexpr (Pull::pulls) {
+        a[k] = per * pull.advance(k, x, y);
+        if (k < 2) a[k] = a[k] + (k == 0 ? a0 : a1);
+        alpha = alpha - convolution(ry, a, k);
       }
       theta[k + 1] = omega[k] * over;
       omega[k + 1] = alpha * over;
@@ -41,7 +52,17 @@ struct RockSeries : Polynomials<Pack> {
     }
     const Pack over(1.0 / (N + 1));
     theta[N + 1] = omega[N] * over;
-    omega[N + 1] = (times(rx, N, gravity) - ry[N] * a0 - ry[N - 1] * a1) * over;
+    if constexpr (Pull::pulls) {
+      a[N] = per * pull.advance(N, convolution(ry, omega, N), convolution(rx, omega, N));
+      omega[N + 1] = (times(rx, N, gravity) - convolution(ry, a, N)) * over;
+    } else {
+      omega[N + 1] = (times(rx, N, gravity) - ry[N] * a0 - ry[N - 1] * a1) * over;
+    }
+  }
+  template <class Gravity>
+  void expand(const Gravity& gravity, const Pack& a0, const Pack& a1) {
+    NoPull none;
+    expand(gravity, a0, a1, none, a0);
   }
 
   RockEnd end(const Pack& a_next) const { return {sum(omega), sum(rx), sum(ry), a_next, sum(theta)}; }
@@ -164,12 +185,12 @@ PackMask turns_twice(const Step& y, const Pack& omega_end) {
 // state is `end`, if it is above `seen`. `weight`: of the floor's acceleration, in the units of the series. Not `always`:
 // only in lanes where the value at the start comes close to `seen`, whatever the other lanes do. `lift`: vertical acceleration of
 // the floor, in the units of the series. `along`: the part of `a` that is gravity along the
-// floor, and no acceleration.
-template <class Step, class Gravity, class Lift = Level>
+// floor, and no acceleration. `pull`: no part of `a`.
+template <class Step, class Gravity, class Lift = Level, class Pull = NoPull>
 [[gnu::always_inline]] inline Pack watch_force(const Step& y, const Pack& weight, const Gravity& gravity,
                                                const Pack& push, const Pack& a, const Pack& rate_a, const RockEnd& end,
                                                const Pack& part, const Pack& seen, bool always, const Lift& lift = {},
-                                               const Pack& along = Pack(0.0)) {
+                                               const Pack& along = Pack(0.0), const Pull& pull = {}) {
   const Pack two(2.0), zero(0.0), omega2 = y.omega[0] * y.omega[0];
   const Pack fx = y.ry[0] * y.omega[1] - y.rx[0] * omega2 + weight * (a - along);
   const Pack fy = less_at(y.rx[0] * y.omega[1] + y.ry[0] * omega2, lift, zero);  // g - f_y, as below
@@ -181,7 +202,8 @@ template <class Step, class Gravity, class Lift = Level>
   const Pack gx = ry1 * y.omega[1] + y.ry[0] * alpha1 - rx1 * omega2 - y.rx[0] * cross + weight * rate_a;
   const Pack gy = less_rate(rx1 * y.omega[1] + y.rx[0] * alpha1 + ry1 * omega2 + y.ry[0] * cross, lift);
   const Pack slope = two * (fx * gx + fy * gy);
-  const Pack alpha = end.rx * value_at(gravity, part) - end.ry * (push * end.a), omega2_end = end.omega * end.omega;
+  const Pack alpha = end.rx * value_at(gravity, part) - end.ry * (push * pull.with(end.a, part)),
+             omega2_end = end.omega * end.omega;
   const Pack hx = end.ry * alpha - end.rx * omega2_end + weight * (end.a - along),
              hy = less_at(end.rx * alpha + end.ry * omega2_end, lift, part);
   const Pack square_end = hx * hx + hy * hy;
@@ -195,7 +217,7 @@ template <class Step, class Gravity, class Lift = Level>
   const Pack omega = y.omega_at(at), a_top = a + rate_a * at;
   Pack rx, ry;
   y.arm_at(at, rx, ry);
-  const Pack alpha_top = rx * value_at(gravity, at) - ry * (push * a_top), omega2_top = omega * omega;
+  const Pack alpha_top = rx * value_at(gravity, at) - ry * (push * pull.with(a_top, at)), omega2_top = omega * omega;
   const Pack tx = ry * alpha_top - rx * omega2_top + weight * (a_top - along),
              ty = less_at(rx * alpha_top + ry * omega2_top, lift, at);
   return watched(xsimd::max(high, choose(tops, tx * tx + ty * ty, high)));

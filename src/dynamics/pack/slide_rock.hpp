@@ -93,7 +93,7 @@ class SlideRock : public SlideRockSliding {
   template <int K, bool slips>
   void corner() {
     const double hs = h_ * fraction_, hs2 = hs * hs;
-    const Field next{next_floor(), Gravity::shaken ? next_gravity() : c_.g};
+    const Field next{next_floor(), Gravity::shaken ? next_gravity() : c_.g, 0};
     CornerSeries<K> y;
     y.theta[0] = theta_;
     y.omega[0] = omega_ * hs;
@@ -107,10 +107,11 @@ class SlideRock : public SlideRockSliding {
       slide_rock(y, hs, next);
     } else {
       const double over = hs2 / (c_.k2 + rx_ * rx_ + ry_ * ry_);
+      auto pull = pull_within<K>(hs);
       if constexpr (Gravity::shaken)
-        y.rock(Straight<double>{g_, next.g - g_} * over, a_ * over, (next.a - a_) * over);
+        y.rock(Straight<double>{g_, next.g - g_} * over, a_ * over, (next.a - a_) * over, pull, over);
       else
-        y.rock(c_.g * over, a_ * over, (next.a - a_) * over);
+        y.rock(c_.g * over, a_ * over, (next.a - a_) * over, pull, over);
     }
     // Which comes first?
     const double reach = valid_part(y.omega[K + 1], y.w[K + 1], K + 1, slips && c_.law);
@@ -174,21 +175,36 @@ class SlideRock : public SlideRockSliding {
   template <int K>
   void slide_rock(CornerSeries<K>& y, double hs, Field next) const {
     const double hs2 = hs * hs, sigma_mu = sigma_ * c_.mu_k;
+    auto pull = pull_within<K>(hs);
     if (c_.law) {
       OwnFactor<K> factor(*c_.law, {*c_.law, path_, sigma_}, sigma_);
-      y.slide_rock(c_.g * hs2, a_ * hs2, (next.a - a_) * hs2, c_.k2, sigma_mu, sigma_ / hs, factor);
+      y.slide_rock(c_.g * hs2, a_ * hs2, (next.a - a_) * hs2, c_.k2, sigma_mu, sigma_ / hs, factor, pull, hs2);
     } else {
       NoFactor none;
       const double a1 = (next.a - a_) * hs2;
       if constexpr (Gravity::shaken)
-        y.slide_rock(Straight<double>{g_, next.g - g_} * hs2, a_ * hs2, a1, c_.k2, sigma_mu, 0.0, none);
+        y.slide_rock(Straight<double>{g_, next.g - g_} * hs2, a_ * hs2, a1, c_.k2, sigma_mu, 0.0, none, pull, hs2);
       else
-        y.slide_rock(c_.g * hs2, a_ * hs2, a1, c_.k2, sigma_mu, 0.0, none);
+        y.slide_rock(c_.g * hs2, a_ * hs2, a1, c_.k2, sigma_mu, 0.0, none, pull, hs2);
     }
   }
 
-  Field field_at(const Field& next, double x) const {
-    return {a_ + (next.a - a_) * x, Gravity::shaken ? g_ + (next.g - g_) * x : c_.g};
+  template <int K>
+  auto pull_within(double hs) const {
+    if constexpr (Gravity::pulls)
+      return Pull<K, double>{c_.stiffness, c_.drag / hs, lever() * arm(side_), lever() * c_.h,
+                             xi_ + side_ * half_base_ * versine(theta_)};
+    else
+      return NoPull{};
+  }
+
+  template <int K>
+  Field field_at(const CornerSeries<K>& y, double x, double hs, const Field& next) const {
+    double pull = 0;
+    if constexpr (Gravity::pulls)
+      pull = pull_at(value(y.xi, x), value(y.w, x) / hs, value(y.theta, x), value(y.omega, x) / hs, value(y.rx, x),
+                     value(y.ry, x));
+    return field_of(a_ + (next.a - a_) * x, Gravity::shaken ? g_ + (next.g - g_) * x : c_.g, pull);
   }
 
   enum class Cause { none, impact, stop, grip };
@@ -203,7 +219,7 @@ class SlideRock : public SlideRockSliding {
   // mu_s f_y - |f_x| at x, rocking.
   template <int K>
   double grip(const CornerSeries<K>& y, double x, double hs, Field next) const {
-    const Forces f = rocking(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x));
+    const Forces f = rocking(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(y, x, hs, next));
     return mu_s_against(f.fx) * f.fy - magnitude(f.fx);
   }
 
@@ -249,7 +265,7 @@ class SlideRock : public SlideRockSliding {
 
   template <int K>
   Forces forces_at(const CornerSeries<K>& y, double x, double hs, Field next) const {
-    return forces(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(next, x), value(y.w, x) / hs,
+    return forces(value(y.rx, x), value(y.ry, x), value(y.omega, x) / hs, field_at(y, x, hs, next), value(y.w, x) / hs,
                   magnitude(value(y.xi, x) - xi_));
   }
 
@@ -258,25 +274,23 @@ class SlideRock : public SlideRockSliding {
     const double theta = value(y.theta, x), omega = value(y.omega, x), rx = value(y.rx, x), ry = value(y.ry, x);
     const Forces end = forces_at(y, x, hs, next);
     if (!(end.fy > 0)) return decline();
-    feel(begin.fx, begin.fy);
-    feel(end.fx, end.fy);
+    feel(begin);
+    feel(end);
     // Displacement of the midpoint: u = xi + s B (1 - cos theta).
-    const double c = arm(side_), lever = side_ * half_base_ / (c_.h * c_.h + c * c);
+    const double c = arm(side_), lever = this->lever();
     const auto slip = [&](double at) { return value(y.xi, at) + side_ * half_base_ * versine(value(y.theta, at)); };
     if (y.omega[0] * omega < 0) {
       const double top = sign_change<K + 1>(y.omega, x);
       see_rotation(value(y.theta, top));
       see_slip(slip(top));
-      const Forces f = forces_at(y, top, hs, next);
-      feel(f.fx, f.fy);
+      feel(forces_at(y, top, hs, next));
     }
     feel_top(y, x, hs, next, begin, end);
     see_rotation(theta);
     const double u = slip(x);
     see_slip(u);
-    // u' = w + s B sin(theta) omega, sin theta = (h r_x + c r_y)/(h^2 + c^2).
-    const double before = y.w[0] + lever * (c_.h * rx_ + c * ry_) * y.omega[0];
-    const double after = (mode_ == Mode::rock ? 0.0 : value(y.w, x)) + lever * (c_.h * rx + c * ry) * omega;
+    const double before = y.w[0] + lever * leaning(rx_, ry_) * y.omega[0];
+    const double after = (mode_ == Mode::rock ? 0.0 : value(y.w, x)) + lever * leaning(rx, ry) * omega;
     if (before * after < 0 && magnitude(u) + magnitude(before) + magnitude(after) > peak_slip_) {
       double rate[K + 1];
       for (int k = 1; k <= K; ++k) rate[k] = k * (y.xi[k] - lever * (c_.h * y.ry[k] - c * y.rx[k]));

@@ -26,6 +26,11 @@ class SlideRockHops : public SlideRockLane {
     for (int k = 0; k < 2; ++k) {
       const CornerConstants& corner = corner_constants_[k];
       r.stand(k, i, corner, c_.scale, h2);
+      if constexpr (Gravity::pulls) {
+        const double swings = half_base_ * c_.h * corner.per_inertia;
+        r.shakes.stiffness[k][i] = swings * c_.stiffness * h2;
+        r.shakes.drag[k][i] = swings * c_.drag * h_;
+      }
       if constexpr (Gravity::shaken) {
         const double weight = c_.vertical_scale * h2 * corner.per_inertia;
         r.shakes.lift[k][i] = weight * magnitude(corner.arm);
@@ -33,6 +38,10 @@ class SlideRockHops : public SlideRockLane {
       }
     }
     if constexpr (Gravity::shaken) r.shakes.most[i] = lift / magnitude(c_.vertical_scale);
+    if constexpr (Gravity::pulls) {
+      r.slope[i] = (c_.along + pull_upright()) / c_.scale;
+      r.a[i] = (a_ + pull_upright()) / c_.scale;
+    }
     r.limit2[i] = limit2();
     r.push[i] = largest_push(lift) / size;
     r.hops[i] = r.impacts[i] = r.ended[i] = 0;
@@ -49,7 +58,7 @@ class SlideRockHops : public SlideRockLane {
     stand_at_knot();
     fraction_ = r.fraction[i];
     if (fraction_ < 1) {
-      a_ = c_.scale * r.a[i];
+      a_ = c_.scale * r.a[i] - pull_upright();
       if constexpr (Gravity::shaken) g_ = c_.g + c_.vertical_scale * r.shakes.v[i];
     }
     const double theta = r.theta[i];
@@ -74,9 +83,9 @@ class SlideRockHops : public SlideRockLane {
   // The hops from here on are so small that their series (dynamics/pack/hop_series.hpp) is as good as that of rocking, slip
   // nowhere and are no new peaks. kappa h^2 < 1e-3: the first term left out of a hop is (kappa h^2)^3/7! = 2e-13 of it.
   bool small_hops() const {
-    const double pull = on(side_).pull(a_, g_ - c_.g), square = omega_ * omega_;
+    const double a = a_ + pull_upright(), pull = on(side_).pull(a, g_ - c_.g), square = omega_ * omega_;
     return square * square < limit2() * pull * pull && bounds_.fast * c_.g * h_ * h_ < 1e-3 &&
-           magnitude(a_) <= largest_push(lift_ahead());
+           magnitude(a) <= largest_push(lift_ahead());
   }
 
   // The hops that follow end before the floor could make one larger, or make it slip: they are counted, and the block
@@ -85,9 +94,9 @@ class SlideRockHops : public SlideRockLane {
   // 2 omega/slow exp(V/2)/(1 - e) at most.
   bool dies_out() {
     const double omega = magnitude(omega_), square = omega * omega, span = bounds_.row * omega / h_;
-    const double slow = bounds_.slow - bounds_.slow1 * magnitude(c_.along);
+    const double along = along_hops(), slow = bounds_.slow - bounds_.slow1 * along;
     if (span > longest_row * slow || square >= on(side_).told) return false;
-    RowOfHops row{span, square, magnitude(a_), 0, slow, 1};
+    RowOfHops row{span, square, magnitude(a_) + (along - magnitude(c_.along)), 0, slow, 1, along};
     if (!unnoticed(row)) return false;
     if (m_ < last_ && !(quiet_row(row) && unnoticed(row))) return false;
     if (m_ >= last_) hops_end_ = now() + row_lasts(side_, omega);
@@ -99,7 +108,8 @@ class SlideRockHops : public SlideRockLane {
   }
   // On a still floor.
   double row_lasts(int side, double omega) const {
-    const auto pull = [&](int corner) { return on(corner).pull(c_.along, 0); };
+    const double along = c_.along + pull_upright();
+    const auto pull = [&](int corner) { return on(corner).pull(along, 0); };
     return lasts_in_all(omega, pull(side), on(side).kept, pull(-side), on(-side).kept);
   }
 
@@ -112,7 +122,7 @@ class SlideRockHops : public SlideRockLane {
   // Up to the next knot, on the corner where it is less. pull(corner, field): back to the floor, of the upright block.
   template <class Pull>
   double given_ahead(Pull&& pull) const {
-    const Field next{next_floor(), next_gravity()};
+    const Field next = field_of(next_floor(), next_gravity(), this->pull());
     const double time = m_ < last_ ? h_ * fraction_ : std::numeric_limits<double>::infinity();
     const auto given = [&](int corner) {
       const double now = pull(corner, field());
@@ -147,7 +157,7 @@ class SlideRockHops : public SlideRockLane {
     const double share = v / c_.g;
     const double fx = b.fx * (1 + share) + small_share * c_.g, lift = b.lift + v + small_share * c_.g;
     const double mu_s = least_mu_s(), grip = (mu_s * (c_.g - lift) - fx) / (b.fx1 + mu_s * b.lift1);
-    const double unseen = b.unseen_push(fx + magnitude(c_.along), lift, force2_);
+    const double unseen = b.unseen_push(fx + along_hops(), lift, force2_);
     return smaller(smaller(grip, unseen), b.tips * (1 - share));
   }
 
@@ -155,7 +165,14 @@ class SlideRockHops : public SlideRockLane {
     double span, square;  // its duration times slow, in intervals; squared rate at the start
     double push, lift;    // bounds of the floor's acceleration
     double slow, growth;  // alpha at least; exp(V)
+    double along;         // bound of what is no shaking
   };
+  // Slope, spring and drag while a row of hops lasts whose rotations are small enough for `unnoticed`.
+  double along_hops() const {
+    const double most = most_of_row * smaller(c_.left, c_.right) / c_.h;
+    const double swings = half_base_ * most * (c_.stiffness * most + c_.drag * magnitude(omega_));
+    return magnitude(c_.along) + (pulled_ ? magnitude(pull_upright()) + swings : 0);
+  }
 
   // An upper bound of exp(x), x >= 0.
   static double above_exp(double x) { return x < 1.75 ? 1 + x * (1 + x) : exp_outside(x); }
@@ -166,7 +183,7 @@ class SlideRockHops : public SlideRockLane {
     const double lifts = magnitude(c_.vertical_scale), *v = shaken_ ? t_.vertical.data() + m_ : nullptr;
     double &push = row.push, &lift = row.lift, &slow = row.slow;
     int end = static_cast<int>(span / slow) + 2;
-    const double along = magnitude(c_.along);
+    const double along = row.along;
     if (m_ + end > last_ || unit * bound_between(t_, m_, m_ + end) + along > bounds_.tips) return false;
     double variation = 0;
     for (int done = 0; done < end;) {
@@ -192,21 +209,22 @@ class SlideRockHops : public SlideRockLane {
     // A rotation of this share of b/h takes as much off the pull back, and off the rates of the row. Of the longest row, 80 intervals,
     // a thousandth is a twelfth of an interval, and quiet_row looks at two more. At the end of all, where the time of the hops
     // counts, a row from 1e-5 lasts 2 sqrt(2e-5)/(1 - e)/p = 0.009/(1 - e)/p, and that is off by 1e-7/(1 - e)/p.
-    const double least = m_ < last_ ? 1e-3 : 1e-5;
+    const double least = m_ < last_ ? most_of_row : 1e-5;
     if (rotation > peak_rotation_ || rotation * c_.h > least * smaller(c_.left, c_.right)) return false;
     if (magnitude(xi_) + half_base_ * rotation * rotation > peak_slip_ + least_slip) return false;
-    return unnoticed(row.push, row.lift, 2 * c_.h * row.growth * row.square);
+    return unnoticed(row.push, row.lift, 2 * c_.h * row.growth * row.square, row.along);
   }
 
   // Small hops neither slip nor make a new peak of the acceleration while the floor's is `push` at most, and `v`
   // vertically; more: what the rotation adds to the forces.
-  bool unnoticed(double push, double v, double more) const {
+  bool unnoticed(double push, double v, double more, double along) const {
     const double fx = bounds_.fx * (1 + v / c_.g) + bounds_.fx1 * push + more;
     const double lift = bounds_.lift + v + bounds_.lift1 * push + more;
-    const double ax = fx + magnitude(c_.along);
+    const double ax = fx + along;
     return ax * ax + lift * lift < force2_ && fx < least_mu_s() * (c_.g - lift);
   }
 
+  static constexpr double most_of_row = 1e-3;   // see `unnoticed`
   static constexpr int watched_ahead = 32;      // knots
   static constexpr double small_share = 0.002;  // of gravity: what small rotations add to the forces
 };

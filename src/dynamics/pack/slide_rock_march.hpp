@@ -21,8 +21,8 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   using Group = LaneGroup<SlideRockRows<Gravity>>;
   using Group::r_;
   using Interval = typename Gravity::Interval;
-  // Short steps of a floor that does not shake vertically go by derivatives.
-  using Step = std::conditional_t<Gravity::shaken, RockSeries<N>, StepOf<N>>;
+  // Short steps of a floor that does not shake vertically, and without spring and drag, go by derivatives.
+  using Step = std::conditional_t<Gravity::shaken || Gravity::pulls, RockSeries<N>, StepOf<N>>;
 
  public:
   using Group::count;
@@ -72,8 +72,9 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack zero(0.0), one(1.0), fraction = load(r_.fraction), a = load(r_.a),
                                     a_next = fetch(r_.next) + load(r_.slope), change = a_next - a;
     RockSeries<N> y;
+    auto pull = pull_of(0, fraction);
     expand<false>(y, 0, fraction, load(r_.omega), Interval(r_.shakes, 0, r_.next).per_inertia(load(r_.gravity)),
-                  load(r_.push), a, change);
+                  load(r_.push), a, change, pull);
     const Pack end = y.sum(y.theta), guess = first_zero(y.theta[0], y.omega[0], end);
     const Pack part = bracketed_root<N + 1>(y.theta, one, zero, one, guess, end <= zero);
     const Pack falls = y.at(y.omega, part) / fraction, omega = zero - load(k.kept) * falls;
@@ -108,14 +109,16 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack gravity = load(k.gravity), push = load(k.push), weight = zero - load(r_.weight);
     const Pack weight_g = load(r_.weight_g), mu_left = load(r_.mu_right), mu_right = load(r_.mu_left),
                turned = load(r_.turned), base = load(r_.half_base);
-    const Pack pull = arm * gravity + height * (push * a), floor = weight * a;
+    const Pack held = Gravity::turn_over(r_.shakes, arm, height, base), slope = load(r_.slope) + held, now = a + held;
+    const Pack pull = arm * gravity + height * (push * now), floor = weight * now;
     const Pack fx = arm * omega2 - height * pull + floor, lift = zero - arm * pull - height * omega2;
     const Pack grip = choose(fx > zero, mu_left, mu_right) * (weight_g + lift) - xsimd::abs(fx);
     const Pack room = xsimd::max(load(k.peak) - load(k.shift), zero);
 
-    const Pack most = xsimd::max(xsimd::abs(floor), xsimd::abs(weight * a_next)), swing = two * height * omega2;
+    const Pack most = xsimd::max(xsimd::abs(floor), xsimd::abs(weight * (a_next + held))),
+               swing = two * height * omega2;
     const Pack hop_fx = load(k.fx) + load(k.fx1) * most + swing, hop_lift = load(k.lift) + load(k.lift1) * most + swing;
-    const Pack along = weight * load(r_.slope), ax = fx - along, hop_ax = hop_fx + xsimd::abs(along);
+    const Pack along = weight * slope, ax = fx - along, hop_ax = hop_fx + xsimd::abs(along);
     const PackMask dies = (load(k.row) * omega <= load(k.slow)) & (omega2 < load(k.last_told)) &
                           (hop_ax * hop_ax + hop_lift * hop_lift < load(r_.seen)) &
                           (hop_fx < xsimd::min(mu_left, mu_right) * (weight_g - hop_lift));
@@ -153,7 +156,8 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack push = load(r_.push + i), gravity = load(r_.gravity + i), omega0 = load(r_.omega + i);
     const Interval shakes(r_.shakes, i, r_.next + i);
     const auto field = shakes.per_inertia(gravity);
-    expand<Whole>(y, i, fraction, omega0, field, push, a, change);
+    auto pull = pull_of(i, fraction);
+    expand<Whole>(y, i, fraction, omega0, field, push, a, change, pull);
     RockEnd end = y.end(a_next);
     const Pack theta = end.theta, rx = end.rx, ry = end.ry;
     Pack omega = end.omega;
@@ -169,14 +173,12 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     if constexpr (!Whole) omega = omega * (one / fraction);
 
     const Pack weight_g = load(r_.weight_g + i), weight = load(r_.weight + i);
-    const Pack alpha = rx * at_end(field) - ry * (push * a_next), omega2 = omega * omega;
-    const Pack fx = ry * alpha - rx * omega2 + weight * a_next, lift = shakes.lifted(zero) - rx * alpha - ry * omega2;
+    const Pack floor = pull.with_last(a_next), alpha = rx * at_end(field) - ry * (push * floor), omega2 = omega * omega;
+    const Pack fx = ry * alpha - rx * omega2 + weight * floor, lift = shakes.lifted(zero) - rx * alpha - ry * omega2;
     const Pack mu = choose(fx > zero, load(r_.mu_left + i), load(r_.mu_right + i));
     const Pack grip0 = load(r_.grip + i), grip = mu * (weight_g + lift) - xsimd::abs(fx);
-    const Pack ax = fx - weight * slope, square0 = load(r_.square + i), square = ax * ax + lift * lift;
-    const Pack curvature =
-        load(r_.curvature0 + i) +
-        (shakes.curvature_with(load(r_.curvature1 + i) * xsimd::abs(change)) + load(r_.curvature2 + i) * rate) * rate;
+    const Pack ax = fx - weight * pull.with_last(slope), square0 = load(r_.square + i), square = ax * ax + lift * lift;
+    const Pack curvature = curvature_within(i, change, rate, shakes, pull);
     const Pack ends = xsimd::max(square0, square), curvature2 = curvature * curvature;
     const Pack most = ends * Pack(1 + 1.0 / 256) + Pack(257.0) * curvature2;
     const Pack seen = load(r_.seen + i);
@@ -189,7 +191,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack rises = square - square0;
     const PackMask bows = goes & (most > seen) & (rises * rises <= Pack(64.0) * (curvature2 * ends));
     store_where(goes, r_.seen + i, xsimd::max(seen, ends));
-    if (bits(bows)) watch<Whole>(y, i, fraction, {omega, rx, ry, a_next}, bows, shakes);
+    if (bits(bows)) watch<Whole>(y, i, fraction, {omega, rx, ry, a_next}, bows, shakes, pull);
 
     store_where(goes, r_.theta + i, theta);
     store_where(goes, r_.omega + i, omega);
@@ -206,20 +208,58 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     return {here & strikes, here & ~(on | strikes)};
   }
 
-  template <bool Whole, class Series, class Field>
+  auto pull_of(int i, const Pack& fraction) const {
+    if constexpr (!Gravity::pulls)
+      return NoPull{};
+    else
+      return Gravity::template pull<N>(r_.shakes, i, fraction, load(r_.shakes.xi + i),
+                                       load(r_.half_base + i) - (load(r_.shakes.lever_y + i) * load(r_.ry + i) -
+                                                                 load(r_.shakes.lever_x + i) * load(r_.rx + i)));
+  }
+
+  template <bool Whole, class Series, class Field, class Pull>
   [[gnu::always_inline]] void expand(Series& y, int i, const Pack& fraction, const Pack& omega, const Field& gravity,
-                                     const Pack& push, const Pack& a, const Pack& change) const {
+                                     const Pack& push, const Pack& a, const Pack& change, Pull& pull) const {
     y.theta[0] = load(r_.theta + i);
     y.rx[0] = load(r_.rx + i);
     y.ry[0] = load(r_.ry + i);
     if constexpr (Whole) {
       y.omega[0] = omega;
-      y.expand(gravity, push * a, push * change);
+      expand(y, gravity, push * a, push * change, pull, push);
     } else {
       const Pack fraction2 = fraction * fraction, pushed = push * fraction2;
       y.omega[0] = omega * fraction;
-      y.expand(gravity * fraction2, pushed * a, pushed * change);
+      expand(y, gravity * fraction2, pushed * a, pushed * change, pull, pushed);
     }
+  }
+  template <class Series, class Field, class Pull>
+  [[gnu::always_inline]] static void expand(Series& y, const Field& gravity, const Pack& a0, const Pack& a1, Pull& pull,
+                                            const Pack& per) {
+    if constexpr (Pull::pulls)
+      y.expand(gravity, a0, a1, pull, per);
+    else
+      y.expand(gravity, a0, a1);
+  }
+
+  // How far, at most, the forces leave their chords (CornerConstants::bound_curvatures). A pull makes the field larger, sways as the
+  // floor does, and bends by its higher terms, which friction's share of f_y has part in.
+  template <class Pull>
+  [[gnu::always_inline]] Pack curvature_within(int i, const Pack& change, const Pack& rate, const Interval& shakes,
+                                               const Pull& pull) const {
+    Pack all = load(r_.curvature0 + i), field = load(r_.curvature2 + i), changes = xsimd::abs(change), bends(0.0);
+    if constexpr (Pull::pulls) {
+      const auto& p = pull.terms();
+      for (int k = 2; k <= N; ++k) bends = bends + xsimd::abs(p[k]);
+      const Pack sways = xsimd::abs(p[1]) + bends,
+                 larger = Pack(1.0) + load(r_.shakes.share + i) * (xsimd::abs(p[0]) + sways);
+      all = all * larger * larger;
+      field = field * larger;
+      changes = changes + sways;
+      bends = bends * xsimd::abs(load(r_.weight + i)) *
+              (Pack(1.5) + xsimd::max(load(r_.mu_left + i), load(r_.mu_right + i)));
+    }
+    const Pack bound = all + (shakes.curvature_with(load(r_.curvature1 + i) * changes) + field * rate) * rate;
+    return Pull::pulls ? bound + bends : bound;
   }
 
   // The rotation turns, near a peak or the floor: the peaks. Lanes that touch the floor.
@@ -238,9 +278,9 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
   }
 
   // The squared acceleration may have a new peak.
-  template <bool Whole>
+  template <bool Whole, class PullOf>
   void watch(const Step& y, int i, const Pack& fraction, const RockEnd& end, const PackMask& feels,
-             const Interval& shakes) {
+             const Interval& shakes, const PullOf& pull) {
     const Pack seen = load(r_.seen + i), a = load(r_.a + i), fraction2 = fraction * fraction,
                left4 = fraction2 * fraction2;
     RockEnd there = end;
@@ -248,7 +288,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
     const Pack top =
         watch_force(y, load(r_.weight + i) * fraction2, shakes.per_inertia(load(r_.gravity + i)) * fraction2,
                     load(r_.push + i) * fraction2, a, end.a - a, there, Pack(1.0), seen * left4, true,
-                    shakes.lift() * fraction2, load(r_.slope + i));
+                    shakes.lift() * fraction2, load(r_.slope + i), pull);
     store(r_.seen + i, choose(feels, Whole ? top : top / left4, seen));
   }
 };

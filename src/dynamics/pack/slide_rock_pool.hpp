@@ -45,6 +45,9 @@ class SlideRockPool {
  private:
   using March = SlideRockMarch<N, Gravity>;
   using Apart = typename March::Apart;
+  using Slides = SlideRockSlides<slide_order, Gravity, Friction>;
+  // Sliding flat is no polynomial of the time.
+  static constexpr bool in_series = Friction::by_slip || Gravity::pulls;
 
   // A pack is full, or there is nothing better to do.
   template <class Group>
@@ -53,7 +56,7 @@ class SlideRockPool {
   }
 
   bool slide(bool marching) {
-    if constexpr (Friction::by_slip) {
+    if constexpr (in_series) {
       if (ready(slide_ends_, marching))
         end_slips(slide_ends_);
       else if (ready(slides_, marching))
@@ -154,7 +157,7 @@ class SlideRockPool {
   }
 
   auto& ends_of(const SlideRockSlips<M, Gravity, Friction>&) { return slip_ends_; }
-  auto& ends_of(const SlideRockSlides<slide_order, Friction>&) { return slide_ends_; }
+  auto& ends_of(const Slides&) { return slide_ends_; }
 
   // The last pack of the lanes whose slips end.
   template <class Group>
@@ -185,7 +188,7 @@ class SlideRockPool {
       return refill(number);
     }
     if (lane.slips()) return slips_.add(lane, number);
-    if constexpr (Friction::by_slip)
+    if constexpr (in_series)
       if (lane.slides()) return slides_.add(lane, number);
     if (lane.hops()) return hops_.add(lane, number);
     const int free = rocks_.add(lane, number);
@@ -224,7 +227,7 @@ class SlideRockPool {
   typename March::Strikes strike_ = {};  // a pack that is not full reads it whole
   Impact impacts_[march_slots];          // of the lanes that go on by themselves after it
   SlideRockSlips<M, Gravity, Friction> slips_, slip_ends_;
-  SlideRockSlides<slide_order, Friction> slides_, slide_ends_;
+  Slides slides_, slide_ends_;
   Hopping<Gravity> hops_;
   std::optional<SlideRock<N, M, Gravity>> lanes_[march_slots];
   std::size_t number_[march_slots];  // of the lane's sample

@@ -70,9 +70,9 @@ struct SlipRows {
 };
 
 // Flat on the floor, not mirrored.
-template <class Friction>
+template <class Field, class Friction>
 struct FlatRows {
-  using Gravity = Steady;
+  using Gravity = Field;
   alignas(64) double xi[march_slots], w[march_slots];
   alignas(64) double a[march_slots];                              // unit record, at the knot
   alignas(64) double fraction[march_slots];                       // part of the interval that lies ahead
@@ -85,6 +85,7 @@ struct FlatRows {
   alignas(64) const double* next[march_slots];                    // a at the end of the interval
   const double* stop[march_slots];                                // the last such value
   typename Friction::Rows law;
+  typename Gravity::Rows shakes;
 
   void retire(int i) { seen[i] = 1e300; }
   [[gnu::always_inline]] auto all() {

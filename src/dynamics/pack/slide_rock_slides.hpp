@@ -11,9 +11,9 @@
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
 
-template <int N, class Friction>
-class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
-  using Group = LaneGroup<FlatRows<Friction>>;
+template <int N, class Gravity, class Friction>
+class SlideRockSlides : public LaneGroup<FlatRows<Gravity, Friction>> {
+  using Group = LaneGroup<FlatRows<Gravity, Friction>>;
   using Group::r_;
 
  public:
@@ -35,20 +35,17 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
   // The blocks from lane i on go to the end of their slips.
   void finish(int i, unsigned here, SlipEnds& ends) {
     const Pack zero(0.0), one(1.0), two(2.0), fraction = load(r_.fraction + i), sigma = load(r_.sigma + i);
-    FlatSeries<N, Pack> y;
-    typename Friction::template Factor<N> factor(r_.law, i, sigma);
-    const Pack friction = expand(y, factor, i, fraction, sigma, load(r_.a + i), fetch(r_.next + i));
+    const Step s(r_, i, fraction, sigma, load(r_.a + i), fetch(r_.next + i));
+    const auto& y = s.y;
     const Pack w = y.sum(y.w), guess = first_zero(sigma * y.w[0], sigma * y.w[1], sigma * w);
     const PackMask stops = sigma * w <= zero;
     const PackMask slows = sigma * y.w[1] + two * xsimd::abs(y.w[2]) + Pack(6.0) * xsimd::abs(y.w[3]) < zero;
     const Pack x = bracketed_root<N + 1>(y.w, sigma, zero, one, guess, stops);
-    const Pack most = xsimd::max(factor.first(), factor.at(x)), force = friction * most,
-               fraction2 = fraction * fraction;
-    const Pack xi = y.at(y.xi, x), seen = load(r_.seen + i), peak = load(r_.peak + i),
-               square = force * force / (fraction2 * fraction2);
+    const Pack first = s.factor.first(), last = s.factor.at(x), square = s.felt(first, last, s.pull.with(zero, x));
+    const Pack xi = y.at(y.xi, x), seen = load(r_.seen + i), peak = load(r_.peak + i);
     const PackMask found = stops & slows & (sigma * y.w[0] > zero) & (x > zero) & settled(y, i, fraction) &
-                           (most + curvature(factor) < load(r_.tips + i)) & ~may_peak(factor, square, seen) &
-                           (xsimd::min(factor.first(), factor.at(x)) >= zero);
+                           (xsimd::max(first, last) + s.curvature() < load(r_.tips + i)) & ~s.may_peak(square, seen) &
+                           (xsimd::min(first, last) >= zero);
     r_.law.slid(i, found, xsimd::abs(xi - y.xi[0]));
     store_where(found, r_.xi + i, xi);
     store_where(found, r_.w + i, zero);
@@ -60,60 +57,88 @@ class SlideRockSlides : public LaneGroup<FlatRows<Friction>> {
   }
 
  private:
-  // The friction of Coulomb's law, in the units of the series.
-  template <class Factor>
-  [[gnu::always_inline]] Pack expand(FlatSeries<N, Pack>& y, Factor& factor, int i, const Pack& fraction,
-                                     const Pack& sigma, const Pack& a, const Pack& a_next) const {
-    const Pack fraction2 = fraction * fraction, weight = load(r_.weight + i) * fraction2;
-    const Pack friction = load(r_.friction + i) * (load(r_.weight_g + i) * fraction2);
-    y.xi[0] = load(r_.xi + i);
-    y.w[0] = load(r_.w + i) * fraction;
-    y.slide(friction, weight * a, weight * (a_next - a), r_.law.to_speed(i, sigma, fraction), factor);
-    return friction;
-  }
+  // What is left of an interval.
+  struct Step {
+    const Pack fraction2, weight;
+    FlatSeries<N, Pack> y;
+    typename Friction::template Factor<N> factor;
+    decltype(Gravity::template pull<N>({}, 0, fraction2, fraction2, fraction2)) pull;
+    const Pack friction;  // of Coulomb's law, in the units of the series
+
+    [[gnu::always_inline]] Step(const FlatRows<Gravity, Friction>& r, int i, const Pack& fraction, const Pack& sigma,
+                                const Pack& a, const Pack& a_next)
+        : fraction2(fraction * fraction),
+          weight(load(r.weight + i) * fraction2),
+          factor(r.law, i, sigma),
+          pull(Gravity::template pull<N>(r.shakes, i, fraction, load(r.xi + i), Pack(0.0))),
+          friction(load(r.friction + i) * (load(r.weight_g + i) * fraction2)) {
+      y.xi[0] = load(r.xi + i);
+      y.w[0] = load(r.w + i) * fraction;
+      y.slide(friction, weight * a, weight * (a_next - a), r.law.to_speed(i, sigma, fraction), factor, pull, weight);
+    }
+
+    // Squared acceleration, the larger one of both ends, of which the factor and the pull are given.
+    Pack felt(const Pack& first, const Pack& last, const Pack& pull_last) const {
+      Pack start = friction * first, end = friction * last;
+      if constexpr (Gravity::pulls) {
+        start = start + weight * pull.terms()[0];
+        end = end + weight * pull_last;
+      }
+      return xsimd::max(start * start, end * end) / (fraction2 * fraction2);
+    }
+    // A new peak of it is near, and the force may turn within.
+    PackMask may_peak(const Pack& square, const Pack& seen) const {
+      const Pack* f = terms();
+      Pack bends(0.0);
+#pragma GCC unroll 16
+      for (int k = 2; k <= N; ++k) bends = bends + Pack(double(k)) * xsimd::abs(f[k]);
+      return (square * Pack(1.1) > seen) & ~(xsimd::abs(f[1]) >= bends);
+    }
+    // What the factor leaves its chord by, at most.
+    Pack curvature() const {
+      if constexpr (!Friction::by_slip) {
+        return Pack(0.0);
+      } else {
+        Pack sum = xsimd::abs(terms()[2]);
+#pragma GCC unroll 16
+        for (int k = 3; k <= N; ++k) sum = sum + xsimd::abs(terms()[k]);
+        return sum;
+      }
+    }
+
+   private:
+    // Of what changes.
+    const Pack* terms() const {
+      if constexpr (Gravity::pulls)
+        return pull.terms();
+      else
+        return factor.factor();
+    }
+  };
+
   PackMask settled(const FlatSeries<N, Pack>& y, int i, const Pack& fraction) const {
     return xsimd::abs(y.w[N + 1]) < Pack(neglected_by_laws) * load(r_.size + i) * fraction;
   }
-  // A new peak of the acceleration is near, and the friction may turn within.
-  template <class Factor>
-  static PackMask may_peak(const Factor& factor, const Pack& square, const Pack& seen) {
-    const Pack* f = factor.factor();
-    Pack bends(0.0);
-#pragma GCC unroll 16
-    for (int k = 2; k <= N; ++k) bends = bends + Pack(double(k)) * xsimd::abs(f[k]);
-    return (square * Pack(1.1) > seen) & ~(xsimd::abs(f[1]) >= bends);
-  }
-  // What the factor leaves its chord by, at most.
-  template <class Factor>
-  static Pack curvature(const Factor& factor) {
-    Pack sum = xsimd::abs(factor.factor()[2]);
-#pragma GCC unroll 16
-    for (int k = 3; k <= N; ++k) sum = sum + xsimd::abs(factor.factor()[k]);
-    return sum;
-  }
 
   unsigned march(int i, unsigned here) {
-    const Pack zero(0.0), one(1.0), fraction = load(r_.fraction + i), fraction2 = fraction * fraction,
-                                    per_fraction = one / fraction;
-    const Pack a = load(r_.a + i), a_next = fetch(r_.next + i);
-    const Pack sigma = load(r_.sigma + i);
-    FlatSeries<N, Pack> y;
-    typename Friction::template Factor<N> factor(r_.law, i, sigma);
-    const Pack friction = expand(y, factor, i, fraction, sigma, a, a_next);
-    const Pack xi = y.sum(y.xi), w = y.sum(y.w), first = factor.first(), last = factor.last();
+    const Pack zero(0.0), one(1.0), fraction = load(r_.fraction + i), per_fraction = one / fraction;
+    const Pack a_next = fetch(r_.next + i), sigma = load(r_.sigma + i);
+    const Step s(r_, i, fraction, sigma, load(r_.a + i), a_next);
+    const auto& y = s.y;
+    const Pack xi = y.sum(y.xi), w = y.sum(y.w), first = s.factor.first(), last = s.factor.last();
 
     Pack bow(0.0);
 #pragma GCC unroll 16
     for (int k = 3; k <= N; ++k) bow = bow + xsimd::abs(y.w[k]);
     const Pack seen = load(r_.seen + i), peak = load(r_.peak + i);
     const Pack slower = xsimd::min(sigma * y.w[0], sigma * w), most = xsimd::max(first, last);
-    const Pack force = friction * most, square = force * force / (fraction2 * fraction2);
+    const Pack square = s.felt(first, last, s.pull.with_last(zero));
     const Pack square_term = xsimd::abs(y.w[2]);  // which leaves its chord by a quarter
     const PackMask starts = (sigma * y.w[0] >= zero) & (sigma * y.w[1] > square_term + bow);
     const PackMask stops = ~((slower > Pack(0.25) * square_term + bow) | starts);
-    const PackMask tips = ~(most + curvature(factor) < load(r_.tips + i));
+    const PackMask tips = ~(most + s.curvature() < load(r_.tips + i));
     const PackMask settles = settled(y, i, fraction) & (xsimd::min(first, last) >= zero),
-                   stays = stops | tips | may_peak(factor, square, seen) | ~settles;
+                   stays = stops | tips | s.may_peak(square, seen) | ~settles;
 
     r_.law.slid(i, ~stays, xsimd::abs(xi - y.xi[0]));
     store_where(~stays, r_.xi + i, xi);

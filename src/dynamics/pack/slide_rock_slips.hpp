@@ -66,6 +66,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
             value_at(s.field, x),
             s.factor.at(x),
             s.factor.rate_at(x),
+            s.along_at(x),
             x};
     Pack seen, peak;
     const PackMask strange = s.watch(end, slid, seen, peak) | ~sure | ~(x > zero) | ~(end.theta < Pack(1.57));
@@ -79,9 +80,15 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   struct Apart {
     unsigned all, ends;
   };
+  // What slope, spring and drag take off the acceleration of the block, in units of the record.
+  struct Along {
+    Pack value, rate;
+  };
   // Where a step ends.
   struct End {
-    Pack theta, omega, rx, ry, xi, w, gravity, factor, factor_rate, x;
+    Pack theta, omega, rx, ry, xi, w, gravity, factor, factor_rate;
+    Along along;
+    Pack x;
   };
 
   // The force at the corner: its square, per interval, and the slope of that but for positive factors.
@@ -91,6 +98,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
   };
   struct Place {
     Pack rx, ry, omega, gravity, factor, factor_rate;
+    Along along;
   };
 
   // What is left of an interval.
@@ -100,6 +108,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     const Pack fraction, fraction2, omega0, w0, slope, a, a_next, weight_g, k2, friction, sigma;
     const typename Gravity::Interval shakes;
     typename Friction::template Factor<N> factor;
+    decltype(Gravity::template pull<N>({}, 0, fraction, fraction, fraction)) pull;
     CornerSeries<N, Pack> y;
     decltype(shakes.gravity(weight_g) * fraction2) field;
 
@@ -119,6 +128,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
           sigma(load(r.sigma + i)),
           shakes(r.shakes, i, r.next + i),
           factor(r.law, i, sigma),
+          pull(Gravity::template pull<N>(r.shakes, i, fraction, load(r.xi + i), beside_corner(load(r.theta + i)))),
           field(shakes.gravity(weight_g) * fraction2) {
       const Pack weight = load(r.weight + i) * fraction2;
       y.theta[0] = load(r.theta + i);
@@ -127,7 +137,8 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
       y.xi[0] = load(r.xi + i);
       y.omega[0] = omega0 * fraction;
       y.w[0] = w0 * fraction;
-      y.slide_rock(field, weight * a, weight * (a_next - a), k2, friction, r.law.to_speed(i, sigma, fraction), factor);
+      y.slide_rock(field, weight * a, weight * (a_next - a), k2, friction, r.law.to_speed(i, sigma, fraction), factor,
+                   pull, weight);
     }
 
     // The series' last terms are small enough.
@@ -177,7 +188,21 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
       return (xsimd::min(slip0, sigma * w) > Pack(0.25) * xsimd::abs(curve) + Pack(0.5) * more) | leaves;
     }
     // Slip of the midpoint: u = xi + B (1 - cos theta).
-    Pack midpoint(const Pack& xi, const Pack& theta) const { return xi + load(r.half_base + i) * versine(theta); }
+    Pack midpoint(const Pack& xi, const Pack& theta) const { return xi + beside_corner(theta); }
+    Pack beside_corner(const Pack& theta) const { return load(r.half_base + i) * versine(theta); }
+
+    Along along_first() const {
+      if constexpr (Gravity::pulls) return {slope + pull.terms()[0], pull.terms()[1]};
+      return {slope, Pack(0.0)};
+    }
+    Along along_last() const {
+      if constexpr (Gravity::pulls) return {pull.with_last(slope), pull.rate_sum(pull.terms())};
+      return {slope, Pack(0.0)};
+    }
+    Along along_at(const Pack& x) const {
+      if constexpr (Gravity::pulls) return {pull.with(slope, x), pull.rate_at(pull.terms(), x)};
+      return {slope, Pack(0.0)};
+    }
 
     [[gnu::always_inline]] Touch touch(const Place& at) const {
       const Pack zero(0.0), two(2.0), &x = at.rx, &y1 = at.ry, &o = at.omega, mu = friction * at.factor;
@@ -190,7 +215,9 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
         d_rate = d_rate + x * mu_rate * y1;
         change = mu * mu_rate * f * f * (d * d / k2);
       }
-      const Pack along = load(r.weight + i) * fraction2 * slope;  // the block's acceleration is -(mu f + along)
+      const Pack weight = load(r.weight + i) * fraction2, along = weight * at.along.value;
+      if constexpr (Gravity::pulls) change = weight * at.along.rate * (mu * f + along) * (d * d / k2);
+      // The block's acceleration is -(mu f + along).
       const Pack rises = (n_rate * d - n * d_rate) * (mu * mu * f + lift + mu * along) + change;
       const Pack square = mu * mu * f * f + lift * lift + (two * mu * f + along) * along;
       PackMask holds = (n > zero) & (d > Pack(0.05) * k2);
@@ -201,10 +228,10 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     Pack top_between(const Touch& first, const Touch& last, const Pack& end) const {
       const Pack zero(0.0);
       Pack lo(0.0), hi = end, rises = first.slope, falls = last.slope, most = zero;
-      for (int round = 0; round < 2; ++round) {
+      for (int round = 0; round < (Gravity::pulls ? 4 : 2); ++round) {
         const Pack x = lo + (hi - lo) * (rises / (rises - falls));
-        const Touch here = touch(
-            {y.at(y.rx, x), y.at(y.ry, x), y.at(y.omega, x), value_at(field, x), factor.at(x), factor.rate_at(x)});
+        const Touch here = touch({y.at(y.rx, x), y.at(y.ry, x), y.at(y.omega, x), value_at(field, x), factor.at(x),
+                                  factor.rate_at(x), along_at(x)});
         const PackMask before = here.slope > zero;
         lo = choose(before, x, lo);
         rises = choose(before, here.slope, rises);
@@ -226,8 +253,9 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
       PackMask strange = (before * after < zero) & (size_u + xsimd::abs(before) + xsimd::abs(after) > slid);
       peak = xsimd::max(slid, size_u);
 
-      const Touch first = touch({y.rx[0], y.ry[0], y.omega[0], at_start(field), factor.first(), factor.first_rate()});
-      const Touch last = touch({rx, ry, omega, end.gravity, end.factor, end.factor_rate});
+      const Touch first =
+          touch({y.rx[0], y.ry[0], y.omega[0], at_start(field), factor.first(), factor.first_rate(), along_first()});
+      const Touch last = touch({rx, ry, omega, end.gravity, end.factor, end.factor_rate, end.along});
       strange = strange | ~(first.holds & last.holds);
       seen = load(r.seen + i);
       const Pack square = xsimd::max(first.square, last.square);
@@ -262,8 +290,8 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     const Pack zero(0.0), one(1.0);
     const Step s(r_, i);
     const auto& y = s.y;
-    const End end{y.sum(y.theta), y.sum(y.omega),  y.sum(y.rx),     y.sum(y.ry),          y.sum(y.xi),
-                  y.sum(y.w),     at_end(s.field), s.factor.last(), s.factor.last_rate(), one};
+    const End end{y.sum(y.theta),  y.sum(y.omega),  y.sum(y.rx),          y.sum(y.ry),    y.sum(y.xi), y.sum(y.w),
+                  at_end(s.field), s.factor.last(), s.factor.last_rate(), s.along_last(), one};
     Pack seen, peak, turned = load(r_.look + i), slid = load(r_.peak + i);
     const PackMask falls = end.theta <= zero;
     if (const PackMask tops = s.tops(end.omega, end.theta) & ~falls; bits(tops))

@@ -28,26 +28,26 @@ class SlideRockTrajectory : public SlideRockHops {
 
   // ---- rest
   void rest() {
-    const double size = magnitude(c_.scale), low = larger(least_gravity(m_), 0);
+    const double size = magnitude(c_.scale), low = larger(least_gravity(m_), 0), spring = pull();
     const double least =
-        low > 0 ? smaller((smaller(quiet(1, low), quiet(-1, low)) - magnitude(c_.along)) / size, 1e300) : -1;
+        low > 0 ? smaller((smaller(quiet(1, low), quiet(-1, low)) - magnitude(c_.along + spring)) / size, 1e300) : -1;
     if (!(g_ > 0)) return decline();
     if (m_ < last_) {
       for (int j = m_ + 1;; ++j) {
         j = next_loud(j, least);
         if (j > last_) break;
-        const double after = floor_at(j), g = gravity_at(j);
+        const double after = floor_at(j) + spring, g = gravity_at(j);
         if (!(g > 0)) return decline();
         const double limit = quiet(after, g), way = after > 0 ? 1 : -1;
         if (!(magnitude(after) > limit)) continue;
         feel_rest(j);
-        const double before = floor_at(j - 1), g_before = gravity_at(j - 1);
+        const double before = floor_at(j - 1) + spring, g_before = gravity_at(j - 1);
         const double limit_before = quiet(after, g_before);
         const double part = (way * limit_before - before) / ((after - before) - way * (limit - limit_before));
         fraction_ = j - 1 == m_ ? smaller(fraction_, 1 - part) : 1 - part;
         m_ = j - 1;
         g_ = g_before + (g - g_before) * part;
-        a_ = way * quiet(after, g_);
+        a_ = way * quiet(after, g_) - spring;
         feel(a_, g_);
         if (fraction_ < 1e-9 && m_ + 1 < last_) next_knot();  // 1e-11 s late at most: a push of 1e-10 m/s
         event();
@@ -61,7 +61,8 @@ class SlideRockTrajectory : public SlideRockHops {
         return;
       }
       feel_rest(t_.knots);
-      if (magnitude(c_.along) > quiet(c_.along, c_.g)) {  // the floor's last push held it on its slope
+      // The floor's last push held it on its slope, or against a spring.
+      if (const double a = c_.along + spring; magnitude(a) > quiet(a, c_.g)) {
         m_ = last_;
         stand_at_knot();
         event();
@@ -146,7 +147,8 @@ class SlideRockTrajectory : public SlideRockHops {
     stand(Mode::rest, 0);
     side_ = 0;
     sigma_ = 0;
-    const int over = a_ > 0 ? -1 : 1;
+    const Field f = field();
+    const int over = f.a > 0 ? -1 : 1;
     if (w_ != 0) {
       const int way = w_ > 0 ? 1 : -1;
       mode_ = Mode::slide;
@@ -158,12 +160,12 @@ class SlideRockTrajectory : public SlideRockHops {
       return;
     }
     if (!(g_ > 0)) return decline();
-    const bool slips = magnitude(a_) > slips_at(a_, g_), tips = magnitude(a_) > tips_at(a_, g_);
+    const bool slips = magnitude(f.a) > slips_at(f.a, g_), tips = magnitude(f.a) > tips_at(f.a, g_);
     if (!slips && !tips) return;
     if (tips) {
       stand(Mode::rock, over);
-      const Forces f = rocking(rx_, ry_, 0.0, field());
-      if (magnitude(f.fx) <= mu_s_against(f.fx) * f.fy) return;
+      const Forces stuck = rocking(rx_, ry_, 0.0, f);
+      if (magnitude(stuck.fx) <= mu_s_against(stuck.fx) * stuck.fy) return;
     }
     stand(Mode::slide, over);
     side_ = 0;
@@ -240,7 +242,7 @@ class SlideRockTrajectory : public SlideRockHops {
       hops_end_ = now() + steady;
       return;
     }
-    const Field here = field();
+    const Field here{a_, g_, 0};
     const double left = h_ * fraction_;
     const auto two_hops_later = [&](double time, bool felt) {
       a_ = here.a + (next_floor() - here.a) * (time / left);
@@ -256,7 +258,7 @@ class SlideRockTrajectory : public SlideRockHops {
   }
   void leave_row(double slip, double lasted) {
     sigma_ = slip > 0 ? 1 : -1;
-    slip += lasted * (a_ + sigma_ * mu_k(slip, sigma_) * g_);
+    slip += lasted * (field(slip).a + sigma_ * mu_k(slip, sigma_) * g_);
     if (sigma_ * slip > 0) w_ = slip;
   }
   bool strike_and_hop(int from, HopRow& row) const {
@@ -276,13 +278,13 @@ class SlideRockTrajectory : public SlideRockHops {
     double height = 0, rate = side * omega;
     for (int i = 0; i < pieces; ++i) {
       row.stops = row.stops || w == 0;
-      Forces f = rocking(-arm(side), c_.h, 0.0, field());
+      Forces f = rocking(-arm(side), c_.h, 0.0, field(w));
       const bool grips = w == 0 && magnitude(f.fx) <= mu_s_against(f.fx) * f.fy;
       sigma_ = grips ? 0 : w > 0 || (w == 0 && f.fx < 0) ? 1 : -1;
-      if (!grips) f = slipping(-arm(side), c_.h, 0.0, field(), w, row.slid);
+      if (!grips) f = slipping(-arm(side), c_.h, 0.0, field(w), w, row.slid);
       const double half_curvature = 0.5 * side * f.alpha;
       if (!(f.fy > 0)) return false;
-      if (row.felt) feel(f.fx, f.fy);
+      if (row.felt) feel(f);
       const double down = (rate + std::sqrt(rate * rate - 4 * half_curvature * height)) / (-2 * half_curvature),
                    stops = -w / f.slip;
       const double fall = half_curvature < 0 ? down : 1e300;
@@ -317,7 +319,7 @@ class SlideRockTrajectory : public SlideRockHops {
   bool slip_outlasts_hops(int side, double rate) {
     const auto start = [&](int pivot, double w) {
       sigma_ = w > 0 ? 1 : -1;
-      const Forces f = slipping(-arm(pivot), c_.h, 0.0, field(), w);
+      const Forces f = slipping(-arm(pivot), c_.h, 0.0, field(w), w);
       return HopStart{f.alpha, f.slip};
     };
     const auto blow = [&](int pivot, double& omega, double& w) {
