@@ -53,7 +53,7 @@ const BatchKernels* batch_kernels() {
 
 namespace {
 
-// That the packs keep; where friction follows a law, and of Bouc-Wen's contact.
+// That the packs keep; where friction follows a law, a spring or a drag pulls, and of Bouc-Wen's contact.
 constexpr double least_tolerance = 1e-13, least_of_laws = 1e-10;
 constexpr double endless_base = 1e6;  // half of it, times the height: a block that only slides
 

@@ -29,7 +29,7 @@ void Integration::start_from(const Start& start) {
   state.mode = state.pivot == 0 ? Mode::slide : Mode::slide_rock;
   if (beyond_a_wall()) return stop(Outcome::not_finite);
   if (rig.laws) state.sides = law_values(rig, state, 0, state.w < 0 ? -1 : 1).sides;
-  moved_ = true;
+  moved_ = state.pivot != 0 || state.w != 0;
   unslid_ = std::abs(start.slip_m);
   peaks.response().peak_slip_m = std::abs(slip());
   peaks.response().peak_rotation_rad = std::abs(start.rotation_rad);

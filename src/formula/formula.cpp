@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <memory>
 
+#include "base/key_names.hpp"
 #include "base/units.hpp"
 #include "formula/parse_error.hpp"
 
@@ -204,8 +205,10 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& parame
     const int known = static_cast<int>(variables().size());
     for (int i = 0; i < known; ++i) define(variables()[static_cast<std::size_t>(i)], i);
     for (std::size_t i = 0; i < parameters.size(); ++i) define(parameters[i], known + static_cast<int>(i));
-    for (std::size_t i = 0; i < parameters.size(); ++i)
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
       define(without_unit(parameters[i]), known + static_cast<int>(i));
+      define(std::string(freestand::without_unit(parameters[i])), known + static_cast<int>(i));  // rate_per_s: rate too
+    }
     parser.SetExpr(text);
     int results = 0;
     const double* values = parser.Eval(results);

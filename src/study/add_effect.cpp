@@ -36,6 +36,8 @@ YAML::Node effect_node(const std::string& effect) {
     }
     std::ifstream stream(text);
     if (!stream) {
+      if (text.find('/') != std::string::npos || text.ends_with(".yaml"))
+        throw Error(fmt::format("{} cannot be opened (an effect may stand in a file): correct the path", text));
       std::vector<std::string> names;
       for (const auto& e : effects::all()) names.push_back(e.name);
       throw Error(

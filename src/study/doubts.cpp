@@ -201,7 +201,8 @@ std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) 
   for (const MotionSource& source : study.motions) ask_of_polarity(source, one_sided(study), one_sample, doubter);
   ask_of_legs(study.model, doubter);
   const auto& chain = study.model.chain;
-  if (chain && chain->wall_gap && chain->wall_gap->line == 0)
+  const bool tips = study.model.model != Model::slide;
+  if (tips && chain && chain->wall_gap && chain->wall_gap->line == 0)
     doubter.said.push_back(
         "chain.wall_gap_m is not given: the wall behind is taken to touch the block (0), and whenever the block falls "
         "back to it the wall stops its upper edge and throws it up a little: peak accelerations are 1 g, those in the "

@@ -42,8 +42,9 @@ void check_cross(Section& file, const Study& study, Files look) {
   if (std::none_of(study.motions.begin(), study.motions.end(), [](const auto& source) { return source.in_plane(); }))
     return;
   const auto refuse = [&](const char* key, const std::string& why, const char* cure) {
+    const char* place = file.has(key) ? key : file.has("motions") ? "motions" : "motion";
     file.problem(
-        key, fmt::format("{} does not go with a second horizontal channel of the records ({}): {}", key, why, cure));
+        place, fmt::format("{} does not go with a second horizontal channel of the records ({}): {}", key, why, cure));
   };
   for (const MotionSource& source : study.motions) {
     if (!source.in_plane()) continue;

@@ -48,6 +48,28 @@ std::vector<Quantity> read_parameters(Section& section, const Effect& effect) {
   return quantities;
 }
 
+// As a formula may write them, beside the variables.
+std::string known_parameters(const std::vector<std::string>& names) {
+  std::vector<std::string> short_names;
+  for (const auto& name : names) short_names.emplace_back(without_unit(name));
+  return names.empty() ? "; it has no parameters"
+                       : fmt::format("; its parameters are {}", fmt::join(short_names, ", "));
+}
+
+// Laws take their parameters as they are given: in SI.
+constexpr std::array<std::string_view, 11> si_units = {"1",   "m",    "s",  "kg",  "N",    "rad",
+                                                       "m/s", "m/s2", "Hz", "1/s", "rad/s"};
+void check_unit(Section& section, const std::string& effect, const std::string& parameter) {
+  const std::string unit = unit_of(parameter);
+  if (std::find(si_units.begin(), si_units.end(), unit) != si_units.end()) return;
+  section.problem(
+      "parameters",
+      fmt::format("parameter {} of effect {} has a unit that is not of SI ({}; a formula takes the number as "
+                  "it stands): convert the value, and give the name the ending of its SI unit, or one "
+                  "that is no unit",
+                  parameter, effect, unit));
+}
+
 std::shared_ptr<const Effect> make_formula(Section& section, const EffectPart& part,
                                            const std::vector<std::string>& parameters) {
   for (const char* key : {"friction", "force"}) {
@@ -58,8 +80,8 @@ std::shared_ptr<const Effect> make_formula(Section& section, const EffectPart& p
     } catch (const formula::FormulaError& error) {
       const std::size_t place = std::min(error.position(), text.size());
       section.problem(
-          key, fmt::format("{} of effect {} does not parse ({}, character {}): correct it\n    {}\n    {:>{}}", key,
-                           part.name, error.what(), place + 1, text, '^', place + 1));
+          key, fmt::format("{} of effect {} does not parse ({}, character {}{}): correct it\n    {}\n    {:>{}}", key,
+                           part.name, error.what(), place + 1, known_parameters(parameters), text, '^', place + 1));
       return nullptr;
     }
   }
@@ -125,6 +147,7 @@ EffectPart read_formula(Section& section, const std::string& name) {
         part.parameters.push_back(values.quantity("effects." + name, names.back(), range::any, 0));
       }
   }
+  for (const auto& parameter : names) check_unit(section, name, parameter);
   for (const auto& parameter : names)
     if (formula::is_variable(parameter) || formula::is_variable(std::string(without_unit(parameter))))
       section.problem("parameters",

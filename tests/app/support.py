@@ -1,6 +1,7 @@
 """What the tests of the program share: studies, runs, and the comparison of result files."""
 
 import atexit
+import contextlib
 import json
 import math
 import os
@@ -95,7 +96,10 @@ def datasets(path):
 
 def finished_blocks(folder):
     """Blocks of samples in the logs of a sweep that is not done: each begins a page."""
-    logs = (log.read_bytes() for log in (folder / "blocks").glob("run-*.log"))
+    logs = []
+    for log in (folder / "blocks").glob("run-*.log"):
+        with contextlib.suppress(FileNotFoundError):  # it was done, and took them away
+            logs.append(log.read_bytes())
     return sum(log[page:page + 8] == b"FSBLOCKS" for log in logs for page in range(0, len(log), 4096))
 
 

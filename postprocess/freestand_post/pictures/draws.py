@@ -9,6 +9,7 @@ order = 160
 CAPTION = ("Each point is a set of numbers that the calibration tests allow, as a sweep of fitted.yaml draws them; crosses: the fit. Dashed: "
            "the interval of 90 % of each number. Where friction or the placement differs from test to test, points are those of another test, and "
            "scatter further than the interval of the mean.")
+OF_ONE = "How often a sweep of fitted.yaml draws each value; red: the fit. Dashed: the interval of 90 %."
 
 
 def pictures(results):
@@ -42,7 +43,7 @@ def _picture(comparison):
             axes[k, 0].set_ylabel(validation.parameter(name).replace(": ", ":\n"))
     finding = _finding(comparison, names, values, [between[name] for name in names])
     style.headline(fig, finding, f"{len(values[0])} joint draws of the fitted numbers.")
-    return Picture("draws", fig, finding, CAPTION, "draws")
+    return Picture("draws", fig, finding, CAPTION if n > 1 else OF_ONE, "draws")
 
 
 def _one(ax, values, best, between):
@@ -66,7 +67,9 @@ def _finding(comparison, names, values, between):
     widths = [(high - low) / abs(np.median(v)) for (low, high), v in zip(between, values)]
     k = int(np.argmax(widths))
     low, high = between[k]
-    return (f"The tests leave {_called(names[k])} open between {words.number(low)} and {words.number(high)}"
+    size = max(abs(low), abs(high))
+    digits = 2 + max(0, int(np.log10(size / (high - low)))) if high > low else 3  # that tell one end from the other
+    return (f"The tests leave {_called(names[k])} open between {words.number(low, digits)} and {words.number(high, digits)}"
             f"{', and the other numbers less' if len(names) > 1 else ''}{friction}")
 
 

@@ -10,6 +10,7 @@ from . import Picture
 order = 60
 GRAVITY = 9.80665
 NAMES = {"rest": "rest", "slide": "slide", "rock": "rock", "slide_rock": "slide-rock", "flight": "flight", "overturned": "overturned"}
+ACROSS = " Dashed: the second of the two horizontal directions; the title is of both together."
 CAPTION = ("One specimen under one floor motion. The strip and the colour of the lines give the mode of motion: which corners carry, "
            "and whether they stick or slip.")
 
@@ -33,6 +34,10 @@ def _picture(history):
         spine.set_visible(False)
     _line(floor, time, columns["floor_acceleration_mps2"] / GRAVITY, runs, 1.0)
     _line(slip, time, 100 * columns["slip_m"], runs, 2.0)
+    both_ways = "cross_slip_m" in columns
+    if both_ways:
+        _across(floor, time, columns["floor_cross_acceleration_mps2"] / GRAVITY)
+        _across(slip, time, 100 * columns["cross_slip_m"])
     _line(turn, time, np.degrees(columns["rotation_rad"]), runs, 2.0)
     for ax, label in ((floor, "floor acc. (g)"), (slip, "slip (cm)"), (turn, "rotation (°)")):
         ax.set_ylabel(label)
@@ -49,7 +54,7 @@ def _picture(history):
                  columnspacing=1.4, handletextpad=0.5)
     finding = _finding(history)
     style.headline(fig, finding, "Floor acceleration, displacement of the base relative to the floor, and rotation (clockwise positive).")
-    return Picture("history", fig, finding, CAPTION, "history")
+    return Picture("history", fig, finding, CAPTION + (ACROSS if both_ways else ""), "history")
 
 
 def _runs(mode):
@@ -79,6 +84,17 @@ def _line(ax, time, value, runs, width):
     ax.set_ylim(low - room, high + room)
 
 
+def _across(ax, time, value):
+    """The second horizontal direction, beside the first."""
+    low, high = ax.get_ylim()
+    finite = value[np.isfinite(value)]
+    if not finite.size:
+        return
+    ax.plot(time, value, color=style.INK, lw=0.9, ls=(0, (4, 2)), zorder=1)
+    room = 0.15 * (finite.max() - finite.min())
+    ax.set_ylim(min(low, finite.min() - room), max(high, finite.max() + room))
+
+
 def _clipped(degrees):
     """Keeps the swing before the fall readable: nothing beyond 45 degrees on the falling side."""
     low, high = np.nanmin(degrees), np.nanmax(degrees)
@@ -104,10 +120,12 @@ def _finding(history):
     if summary.get("overturned") or "overturned" in history.mode:
         first = history.mode.index("overturned") if "overturned" in history.mode else -1
         return f"Overturns at {words.number(history.columns['time_s'][first], 3)} s, after slipping {words.number(peak)} cm"
+    left = 100 * abs(float(summary.get("residual_slip_m", slip[-1])))
+    if abs(slip[0]) > 1e-9:  # it starts off its place: how far from there
+        peak, left = (100 * float(value) for value in (np.nanmax(np.abs(slip - slip[0])), abs(slip[-1] - slip[0])))
     if peak < 1e-9 and turned < 1e-9:
         return "The specimen does not move"
     if not {"slide", "slide_rock", "flight"} & set(history.mode):
         return f"Rocks up to {words.number(turned)}° without slipping"
-    left = 100 * abs(float(summary.get("residual_slip_m", slip[-1])))
     turn = f", rocks up to {words.number(turned)}°" if turned > 1e-9 else ", does not rock"
     return f"Moves {words.number(peak)} cm{turn} and comes to rest {words.number(left)} cm from where it stood"

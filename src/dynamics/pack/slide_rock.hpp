@@ -141,7 +141,7 @@ class SlideRock : public SlideRockSliding {
       if (side_ * theta >= 0.5 * pi) return overturn(y, x, hs, next);
       return decline();
     }
-    watch(y, x, hs, next, begin);
+    if (x > 0 || cause != Cause::grip) watch(y, x, hs, next, begin);  // else the corner never stuck
     if (declined_) return;
     theta_ = theta;
     omega_ = omega;
@@ -196,6 +196,15 @@ class SlideRock : public SlideRockSliding {
                              xi_ + side_ * half_base_ * versine(theta_)};
     else
       return NoPull{};
+  }
+
+  // By how much the pull leaves its chord within the step, at most [m/s2]: u = xi + s B (1 - cos theta).
+  template <int K>
+  double pull_bends(const CornerSeries<K>& y, double hs) const {
+    const auto u = [&](int k) { return y.xi[k] - lever() * (c_.h * y.ry[k] - arm(side_) * y.rx[k]); };
+    double sum = 0;
+    for (int k = 2; k < K; ++k) sum += magnitude(c_.stiffness * u(k) + c_.drag * (k + 1) * u(k + 1) / hs);
+    return sum;
   }
 
   template <int K>
@@ -301,11 +310,28 @@ class SlideRock : public SlideRockSliding {
   // Where the squared acceleration has a top inside the step: between the ends its square is all but a parabola. A force that turns
   // with the block by phi leaves its chord by phi^2/8 of itself: a top 1 % over both ends takes a step that turns by 0.2 rad, and those of
   // a record at 0.02 s turn by less up to 10 rad/s. A top missed by 1e-4 of the step is low by 1e-8 of its rise.
+  // Spring and drag bend it more: by the higher terms of their series at most, and with more than one top.
   template <int K>
   void feel_top(const CornerSeries<K>& y, double x, double hs, Field next, const Forces& begin, const Forces& end) {
     const double first = square_of_forces(begin), last = square_of_forces(end), more = 0.01 * (first + last);
-    if (larger(first, last) + more < force2_) return;
     double middle = 0.5 * x;
+    if constexpr (Gravity::pulls) {
+      if (square_of(std::sqrt(larger(first, last) + more) + pull_bends(y, hs), 0) < force2_) return;
+      constexpr int parts = 16;
+      double most = 0;
+      for (int part = 1; part < parts; ++part) {
+        const double at = x * part / parts, here = square_of_forces(forces_at(y, at, hs, next));
+        if (here > most) most = here, middle = at;
+      }
+      const double beside = x / parts;
+      const double left = square_of_forces(forces_at(y, middle - beside, hs, next)),
+                   right = square_of_forces(forces_at(y, middle + beside, hs, next)), curve = left + right - 2 * most;
+      force2_ = larger(force2_, most);
+      if (curve < 0 && most >= left && most >= right)
+        feel(forces_at(y, middle + 0.5 * beside * (left - right) / curve, hs, next));
+      return;
+    }
+    if (larger(first, last) + more < force2_) return;
     for (int round = 0; round < 3; ++round) {
       const double here = square_of_forces(forces_at(y, middle, hs, next));
       force2_ = larger(force2_, here);
@@ -336,6 +362,7 @@ class SlideRock : public SlideRockSliding {
     ended_ = true;
     overturned_ = true;
     end_ = now() + hs * hi;
+    if (too_late()) decline();
   }
 };
 

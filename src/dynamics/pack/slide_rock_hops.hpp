@@ -155,7 +155,7 @@ class SlideRockHops : public SlideRockLane {
   double largest_push(double v) const {
     const HopBounds& b = bounds_;
     const double share = v / c_.g;
-    const double fx = b.fx * (1 + share) + small_share * c_.g, lift = b.lift + v + small_share * c_.g;
+    const double fx = b.fx * (1 + share) + small_share * c_.g + swings(), lift = b.lift + v + small_share * c_.g;
     const double mu_s = least_mu_s(), grip = (mu_s * (c_.g - lift) - fx) / (b.fx1 + mu_s * b.lift1);
     const double unseen = b.unseen_push(fx + along_hops(), lift, force2_);
     return smaller(smaller(grip, unseen), b.tips * (1 - share));
@@ -168,10 +168,12 @@ class SlideRockHops : public SlideRockLane {
     double along;         // bound of what is no shaking
   };
   // Slope, spring and drag while a row of hops lasts whose rotations are small enough for `unnoticed`.
-  double along_hops() const {
+  double along_hops() const { return magnitude(c_.along) + magnitude(pull_upright()) + swings(); }
+  // By what spring and drag change in it.
+  double swings() const {
+    if (!pulled_) return 0;
     const double most = most_of_row * smaller(c_.left, c_.right) / c_.h;
-    const double swings = half_base_ * most * (c_.stiffness * most + c_.drag * magnitude(omega_));
-    return magnitude(c_.along) + (pulled_ ? magnitude(pull_upright()) + swings : 0);
+    return half_base_ * most * (c_.stiffness * most + c_.drag * magnitude(omega_));
   }
 
   // An upper bound of exp(x), x >= 0.

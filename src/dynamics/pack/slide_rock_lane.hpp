@@ -23,7 +23,9 @@ class SlideRockLane : public SlideRockBlock {
   }
   // So short a rest of an interval, a difference, has seven digits: it is left to the lane alone, which goes on to the knot.
   bool in_packs() const { return fraction_ > 1e-9 && (m_ < last_ || m_ < patience()); }
-  bool marches() const { return mode_ == Mode::rock && in_packs(); }
+  // Packs look for peaks of the slip where the rotation is largest; of a corner that stands far on the other side it is largest where that is
+  // least.
+  bool marches() const { return mode_ == Mode::rock && in_packs() && !(-side_ * xi_ > peak_slip_); }
   bool slips() const { return mode_ == Mode::slide_rock && in_packs(); }
 
   // Rocking. How many intervals there are to go: 1 at least.

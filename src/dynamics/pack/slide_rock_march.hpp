@@ -213,8 +213,7 @@ class SlideRockMarch : public LaneGroup<SlideRockRows<Gravity>> {
       return NoPull{};
     else
       return Gravity::template pull<N>(r_.shakes, i, fraction, load(r_.shakes.xi + i),
-                                       load(r_.half_base + i) - (load(r_.shakes.lever_y + i) * load(r_.ry + i) -
-                                                                 load(r_.shakes.lever_x + i) * load(r_.rx + i)));
+                                       load(r_.half_base + i) * versine(load(r_.theta + i)));
   }
 
   template <bool Whole, class Series, class Field, class Pull>

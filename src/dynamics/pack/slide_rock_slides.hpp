@@ -1,4 +1,4 @@
-// Blocks that slide flat at present under a law of friction, side by side, and their steps in packs: an interval, or what is
+// Blocks that slide flat at present, under a law of friction or pulled by a spring and a drag, side by side, and their steps in packs: an interval, or what is
 // left of it, as long as nothing happens in it: no end of the slip, no turn of the friction that could be a peak, no tipping.
 #pragma once
 

@@ -71,6 +71,7 @@ class SlideRockTrajectory : public SlideRockHops {
     }
     ended_ = true;
     end_ = m_ < last_ ? h_ * last_ : larger(now(), hops_end_);
+    if (too_late()) decline();
   }
   // First knot from j on that may end the rest; `least`: of the unit record, at gravity's lowest.
   int next_loud(int j, double least) const {
@@ -328,9 +329,10 @@ class SlideRockTrajectory : public SlideRockHops {
         return omega != 0;
       }
       const Blow after = coulomb_blow(c_, on(pivot), on(-pivot), omega, w);
-      if (!after.hops()) return false;
-      omega = after.omega;
+      if (after.ends == Blow::Ends::painleve) return false;
       w = after.w;
+      if (after.omega == 0) return false;
+      omega = after.omega;
       return true;
     };
     return outlasts_hops(side, rate, w_, start, blow);

@@ -106,11 +106,13 @@ MatrixXd slopes_as_stated(const AsStated& s, const Judge& judge, const Test& tes
   return columns;
 }
 
-VectorXd deviations(const AsStated& s) {
+VectorXd deviations(const AsStated& s) { return deviations(s, s.x); }
+
+VectorXd deviations(const AsStated& s, const Values& x) {
   VectorXd off(count(s));
   for (Index d = 0; d < off.size(); ++d) {
-    const std::size_t place = s.x.size() - s.names.size() + static_cast<std::size_t>(d);
-    off[d] = (to_unit(s.model.free[place], s.x[place]) - stated_in_cube) / deviation_in_cube;
+    const std::size_t place = x.size() - s.names.size() + static_cast<std::size_t>(d);
+    off[d] = (to_unit(s.model.free[place], x[place]) - stated_in_cube) / deviation_in_cube;
   }
   return off;
 }

@@ -40,6 +40,7 @@ std::pair<ModelSpec, Values> moved_alike(const AsStated&, const ModelFit& fit, c
 // Columns of all its numbers, as slopes_of() gives them, those of what is stated per standard deviation; by how many of these it is off.
 Eigen::MatrixXd slopes_as_stated(const AsStated&, const Judge&, const Test&, std::size_t i, const Prediction& at);
 Eigen::VectorXd deviations(const AsStated&);
+Eigen::VectorXd deviations(const AsStated&, const Values& x);  // at other numbers
 // The fit's and the deviations' normal equations: deviations are 0 +- 1 beforehand.
 Eigen::MatrixXd with_tolerance(Eigen::MatrixXd gram, const AsStated&);
 

@@ -58,10 +58,9 @@ void HistoryMisfit::reduce() {
   add_deviations(place_, weight(), all);
   const auto p = static_cast<Index>(fit_.x.size()), q = all.gram.rows() - p;
   of_deviations_.compute(all.gram.bottomRightCorner(q, q));
-  coupling_ = all.gram.bottomLeftCorner(q, p);
-  against_deviations_ = all.against.tail(q);
-  rates_ = all.gram.topLeftCorner(p, p) - coupling_.transpose() * of_deviations_.solve(coupling_);
-  against_ = all.against.head(p) - coupling_.transpose() * of_deviations_.solve(against_deviations_);
+  const MatrixXd coupling = all.gram.bottomLeftCorner(q, p);
+  rates_ = all.gram.topLeftCorner(p, p) - coupling.transpose() * of_deviations_.solve(coupling);
+  against_ = all.against.head(p) - coupling.transpose() * of_deviations_.solve(all.against.tail(q));
   const MatrixXd inverse = all.gram.completeOrthogonalDecomposition().pseudoInverse();
   errors_ = (weight() * inverse.diagonal().tail(q)).cwiseSqrt() / deviation_in_cube;
   if (tau2_ == 0 && q == 0) return;
@@ -73,29 +72,29 @@ void HistoryMisfit::reduce() {
   }
 }
 
-VectorXd HistoryMisfit::from_place(const Values& numbers) const {
-  VectorXd moved(static_cast<Index>(numbers.size()));
-  for (std::size_t k = 0; k < numbers.size(); ++k) {
+VectorXd HistoryMisfit::step(const MatrixXd& inverse) const {
+  VectorXd to_place(static_cast<Index>(fit_.x.size()));
+  for (std::size_t k = 0; k < fit_.x.size(); ++k) {
     const Free& free = fit_.model.free[k];
-    moved[static_cast<Index>(k)] = to_unit(free, numbers[k]) - to_unit(free, place_.x[k]);
+    to_place[static_cast<Index>(k)] = to_unit(free, place_.x[k]) - to_unit(free, fit_.x[k]);
   }
-  return moved;
+  return to_place - inverse * against_;
 }
 
-VectorXd HistoryMisfit::step(const MatrixXd& inverse) const { return -from_place(fit_.x) - inverse * against_; }
+Values HistoryMisfit::changed(Values x, const VectorXd& by) const {
+  for (Index k = 0; k < by.size(); ++k) {
+    const std::size_t at = fit_.x.size() + static_cast<std::size_t>(k);
+    const Free& free = place_.model.free[at];
+    x[at] = from_unit(free, to_unit(free, x[at]) + by[k]);
+  }
+  return x;
+}
 
 Values HistoryMisfit::stated_beside(const Values& numbers, std::uint64_t s) const {
   VectorXd chance(of_deviations_.rows());
   for (Index k = 0; k < chance.size(); ++k) chance[k] = random::standard_normal(38, s, static_cast<std::uint64_t>(k));
-  const VectorXd change = std::sqrt(weight()) * of_deviations_.matrixU().solve(chance) -
-                          of_deviations_.solve(against_deviations_ + coupling_ * from_place(numbers));
-  Values stated;
-  for (Index k = 0; k < change.size(); ++k) {
-    const std::size_t at = numbers.size() + static_cast<std::size_t>(k);
-    const Free& free = place_.model.free[at];
-    stated.push_back(from_unit(free, to_unit(free, place_.x[at]) + change[k]));
-  }
-  return stated;
+  const Values x = changed(likeliest_beside(numbers).x, std::sqrt(weight()) * of_deviations_.matrixU().solve(chance));
+  return {x.begin() + static_cast<std::ptrdiff_t>(numbers.size()), x.end()};
 }
 
 void HistoryMisfit::look_from(const AsStated& place, const Jobs& jobs) {
@@ -113,45 +112,87 @@ void HistoryMisfit::look_from(const AsStated& place, const Jobs& jobs) {
     pulls_ = pulls_of(*tests_, shifts_, jobs);
   }
   tau2_ = tau * tau;
-  dispersion_ = dispersion_of(own(), tau2_);
+  // About all numbers that were fitted: the more of them, the less tests disagree about each.
+  const Dispersion of_own = dispersion_of(own(), tau2_);
+  dispersion_ = place.is_off.empty() ? of_own : dispersion_of(pulls_, tau2_);
+  friction_freedom_ = std::max(1.0, of_own.freedom / std::max(1.0, static_cast<double>(fit_.x.size())));
 }
 
-double HistoryMisfit::operator()(const Values& numbers) const {
-  if (numbers.empty()) return no_fit;
+double HistoryMisfit::likeliest_shift(std::size_t i, double against_friction) const {
+  return tau2_ > 0 ? -tau2_ * against_friction / (1 + tau2_ * pulls_[i].gram.bottomRightCorner<1, 1>()(0)) : 0.0;
+}
+
+void HistoryMisfit::add(Look& at, std::size_t i, const Prediction& model) const {
+  if (model.failed()) {
+    at.G += no_fit;
+    return;
+  }
+  const VectorXd r = judge_.residual(i, model);
+  MatrixXd columns = r;
+  if (tau2_ > 0) {
+    columns.conservativeResize(Eigen::NoChange, 2);
+    columns.col(1) = friction_[i];
+  }
+  const VectorXd against = judge_.against(i, columns, r);
+  at.G += against[0];
+  if (!stated_.empty()) at.against_stated += stated_[i].transpose() * r;
+  if (tau2_ == 0) return;
+  const double ff = pulls_[i].gram.bottomRightCorner<1, 1>()(0), shift = at.shifts[i],
+               at_none = against[1] - shift * ff, likeliest = likeliest_shift(i, at_none);
+  at.G += shift * shift * ff - 2 * shift * against[1] + likeliest * at_none;
+  at.against_stated += (likeliest - shift) * friction_stated_[i];
+  at.against_friction[i] = at_none;
+}
+
+void HistoryMisfit::look(std::vector<Look>& looks) const {
+  const std::size_t tests = tests_->count();
+  std::vector<Asked> asked;
+  for (Look& at : looks) {
+    const VectorXd off = deviations(place_, at.x);
+    at.G = weight() * off.squaredNorm();
+    at.against_stated = weight() / deviation_in_cube * off;
+    at.against_friction.assign(tests, 0.0);
+    for (std::size_t i = 0; i < tests; ++i) asked.push_back(tests_->asked(i, at.x, at.shifts[i]));
+  }
+  predict(asked, [&](std::size_t k, const Prediction& model) { add(looks[k / tests], k % tests, model); });
+}
+
+HistoryMisfit::Look HistoryMisfit::next(const Look& at) const {
+  const VectorXd change = to_likeliest(at);
+  Look there{.x = changed(at.x, change), .shifts = at.shifts};
+  for (std::size_t i = 0; tau2_ > 0 && i < there.shifts.size(); ++i)
+    there.shifts[i] = likeliest_shift(i, at.against_friction[i] + friction_stated_[i].dot(change));
+  return there;
+}
+
+// What is stated bends long rocking within what it is open by, and what else the numbers do a test's friction makes up for, by more than
+// its direction holds for. So from where the derivatives are taken or from where all is as stated, whichever misses less, and from where
+// that is likeliest once more.
+HistoryMisfit::Likeliest HistoryMisfit::likeliest_beside(const Values& numbers) const {
+  Look placed{.x = numbers, .shifts = std::vector<double>(tests_->count(), 0.0)}, stated = placed;
   double moved = 0;  // of ln mu
   for (std::size_t k = 0; k < numbers.size(); ++k)
     if (is_friction(fit_.model.free[k])) moved = std::log(numbers[k] / place_.x[k]);
-  double G = weight() * deviations(place_).squaredNorm();
-  VectorXd against_stated = weight() / deviation_in_cube * deviations(place_);
-  for (std::size_t i = 0; i < tests_->count(); ++i) {
-    // With the test's own friction held, and from there the shift that is likeliest, along its direction. What else the numbers do
-    // the test's friction makes up for, by more than its direction holds for: so from there once more.
-    double shift = tau2_ > 0 ? shifts_[i] - moved : 0, of_test = 0;
-    for (int turn = 0; turn < 2; ++turn) {
-      const Prediction at = tests_->at(i, numbers, shift);
-      if (at.failed()) return no_fit;
-      const VectorXd r = judge_.residual(i, at);
-      MatrixXd columns = r;
-      if (tau2_ > 0) {
-        columns.conservativeResize(Eigen::NoChange, 2);
-        columns.col(1) = friction_[i];
-      }
-      const VectorXd against = judge_.against(i, columns, r);
-      of_test = against[0];
-      if (tau2_ == 0) {
-        if (!stated_.empty()) against_stated += stated_[i].transpose() * r;
-        break;
-      }
-      const double ff = pulls_[i].gram.bottomRightCorner<1, 1>()(0),
-                   fr = against[1] - shift * ff;  // at a shift of 0
-      of_test += shift * shift * ff - 2 * shift * against[1] - tau2_ * fr * fr / (1 + tau2_ * ff);
-      const double likeliest = -tau2_ * fr / (1 + tau2_ * ff);
-      if (turn == 1) against_stated += stated_[i].transpose() * r + (likeliest - shift) * friction_stated_[i];
-      shift = likeliest;
-    }
-    G += of_test;
+  for (std::size_t i = 0; tau2_ > 0 && i < shifts_.size(); ++i)
+    placed.shifts[i] = stated.shifts[i] = shifts_[i] - moved;
+  for (std::size_t k = numbers.size(); k < place_.x.size(); ++k) {
+    placed.x.push_back(place_.x[k]);
+    stated.x.push_back(from_unit(place_.model.free[k], stated_in_cube));
   }
-  return G - against_stated.dot(of_deviations_.solve(against_stated));
+  std::vector<Look> first = {placed};
+  if (!place_.names.empty()) first.push_back(stated);
+  look(first);
+  const Look& from = first.back().G < first.front().G ? first.back() : first.front();
+  if ((place_.names.empty() && tau2_ == 0) || from.G >= no_fit) return {from.G, from.x};
+  std::vector<Look> again = {next(from)};
+  look(again);
+  const VectorXd change = to_likeliest(again[0]);
+  const double least = again[0].G + again[0].against_stated.dot(change);
+  return least < from.G ? Likeliest{least, changed(again[0].x, change)} : Likeliest{from.G, from.x};
+}
+
+double HistoryMisfit::operator()(const Values& numbers) const {
+  return numbers.empty() ? no_fit : likeliest_beside(numbers).G;
 }
 
 // One of several deviations is off where Student's t at its share of the level says so.
@@ -178,7 +219,8 @@ std::string HistoryMisfit::stated_otherwise() const {
   for (std::size_t k = 0; k < beyond.size(); ++k)
     if (std::abs(beyond[k]) > std::abs(beyond[most])) most = k;
   if (beyond.empty() || std::abs(beyond[most]) < 1) return "";
-  return fault_sentence(place_.names[most], place_.x[fit_.x.size() + most]);
+  const std::size_t at = fit_.x.size() + most;
+  return fault_sentence(place_.names[most], place_.x[at]) + at_its_limit(place_.model.free[at], place_.x[at]);
 }
 
 }  // namespace freestand::measurement

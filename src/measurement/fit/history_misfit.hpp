@@ -18,6 +18,7 @@ class HistoryMisfit {
   HistoryMisfit& operator=(const HistoryMisfit&) = delete;
 
   double friction_scatter() const { return std::sqrt(tau2_); }
+  double friction_freedom() const { return friction_freedom_; }  // n - 1 of n tests that tell of it
   const Dispersion& dispersion() const { return dispersion_; }
   // By derivatives, in the cube in which fits move: half the second derivatives of G, and the step from the fit to where it is least.
   const Eigen::MatrixXd& rates() const { return rates_; }
@@ -36,12 +37,32 @@ class HistoryMisfit {
   Values stated_beside(const Values& numbers, std::uint64_t s) const;
 
  private:
+  // Numbers, with what is stated behind them and the friction of each test off by its shift, and what the histories there say.
+  struct Look {
+    Values x;
+    std::vector<double> shifts;
+    double G = 0;                               // where the friction of each test is likeliest
+    Eigen::VectorXd against_stated = {};        // half its derivatives in what is stated
+    std::vector<double> against_friction = {};  // half those of each test's misfit in its shift, at a shift of 0
+  };
+  struct Likeliest {
+    double G;
+    Values x;
+  };
+  void look(std::vector<Look>&) const;
+  void add(Look&, std::size_t i, const Prediction&) const;
+  // By the derivatives: the shift, what is stated, and the same as where to look next.
+  double likeliest_shift(std::size_t i, double against_friction) const;
+  Eigen::VectorXd to_likeliest(const Look& at) const { return -of_deviations_.solve(at.against_stated); }
+  Look next(const Look&) const;
+  Likeliest likeliest_beside(const Values& numbers) const;
+
   void look_from(const AsStated&, const Jobs&);
   bool leaves_too_much(const AsStated&) const;
   double weight() const;
   void reduce();
-  std::vector<double> beyond_chance() const;                // deviations of what is off by more than chance, else 0
-  Eigen::VectorXd from_place(const Values& numbers) const;  // in the cube
+  std::vector<double> beyond_chance() const;                  // deviations of what is off by more than chance, else 0
+  Values changed(Values x, const Eigen::VectorXd& by) const;  // in what is stated, in the cube
 
   const Bench& bench_;
   const ModelFit& fit_;
@@ -50,13 +71,12 @@ class HistoryMisfit {
   std::optional<OwnShifts> tests_;
   std::vector<double> shifts_;  // ln of each test's friction over that of the numbers there
   std::vector<Pull> pulls_;
-  double tau2_ = 0;
+  double tau2_ = 0, friction_freedom_ = 1;
   Dispersion dispersion_;
   double fall_as_stated_ = 0;  // of G, from the fit by its numbers alone, all being as stated
   Eigen::MatrixXd rates_;
-  Eigen::VectorXd against_, against_deviations_, errors_;  // errors_: standard errors of the deviations
-  Eigen::MatrixXd coupling_;                               // half the mixed second derivatives, rows of what is stated
-  Eigen::LLT<Eigen::MatrixXd> of_deviations_;              // half the second derivatives of G in what is stated
+  Eigen::VectorXd against_, errors_;           // errors_: standard errors of the deviations
+  Eigen::LLT<Eigen::MatrixXd> of_deviations_;  // half the second derivatives of G in what is stated
   // Of each test: the direction of its friction, C^-1 times those of what is stated, and the products of both.
   std::vector<Eigen::MatrixXd> friction_, stated_;
   std::vector<Eigen::VectorXd> friction_stated_;

@@ -21,14 +21,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // The rows as another test would have them: its own friction, and its own placement of the specimen. By how much friction scatters is known
-// from n tests that tell of it, so that another one lies off their mean by that times Student's t of n - 1 = nu/p: of three tests normal
+// from n tests that tell of it, so that another one lies off their mean by that times Student's t of n - 1: of three tests normal
 // deviates would hold it in 83 of 100 cases where 90 are meant.
 void leave_the_mean(const ModelFit& fit, Posterior& out) {
   std::sort(out.of_mean.begin(), out.of_mean.end());
   out.draws = out.of_mean;
   const int placed = placement_number(fit.model);
-  const double freedom = std::max(1.0, out.freedom / std::max<double>(static_cast<double>(fit.x.size()), 1));
-  const auto student = [&](double z) { return gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(z), freedom); };
+  const auto student = [&](double z) { return gsl_cdf_tdist_Pinv(gsl_cdf_ugaussian_P(z), out.friction_freedom); };
   for (std::size_t s = 0; s < out.draws.size(); ++s) {
     Values& x = out.draws[s];
     const double friction = std::exp(out.friction_scatter * student(random::standard_normal(39, s, 0)));
@@ -46,6 +45,7 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
   const HistoryMisfit misfit(bench, fit, jobs);
   const Dispersion& found = misfit.dispersion();
   out.friction_scatter = misfit.friction_scatter();
+  out.friction_freedom = misfit.friction_freedom();
   out.dispersion = found.s;
   out.freedom = found.freedom;
   out.stated_otherwise = misfit.stated_otherwise();
@@ -66,7 +66,8 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
   if (misfit.likeliest_as_stated()) out.better.clear();
   std::sort(out.of_mean.begin(), out.of_mean.end());
   out.in_laboratory = misfit.in_laboratory();
-  for (std::size_t s = 0; s < out.of_mean.size(); ++s) out.stated.push_back(misfit.stated_beside(out.of_mean[s], s));
+  out.stated = jobs("what is stated beside the draws", out.of_mean.size(),
+                    [&](std::size_t s) { return misfit.stated_beside(out.of_mean[s], s); });
   return out;
 }
 

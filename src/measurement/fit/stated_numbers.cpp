@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace freestand::measurement {
@@ -17,13 +18,19 @@ std::string clock_sentence(const std::string& whose, double late_s) {
 
 std::string fault_sentence(const std::string& name, double number) {
   if (name == clock_fault) return clock_sentence("the responses are stamped", number);
-  const double percent = 100 * std::abs(number - 1);
+  // What it reads times the number is right.
+  const double percent = 100 * std::abs((name == gain_fault ? 1 / number : number) - 1);
   const std::string shown = percent < 0.1 ? fmt::format("{:.1g}", percent) : fmt::format("{:.1f}", percent);
   if (name == gain_fault)
     return fmt::format("the floor's accelerometer reads {} % too {}", shown, number < 1 ? "much" : "little");
   const bool width = name == width_fault;
   return fmt::format("the {} is {} % {} than stated", width ? "width" : "centre of mass", shown,
                      number < 1 ? (width ? "smaller" : "lower") : (width ? "larger" : "higher"));
+}
+
+std::string at_its_limit(const Free& free, double number) {
+  if (std::min(number - free.lower, free.upper - number) >= 1e-3 * (free.upper - free.lower)) return "";
+  return ", which is as far as the stated tolerance lets it be off; it may be off by more";
 }
 
 std::vector<StatedNumber> stated_numbers(const Tolerance& tolerance, const ModelSpec& model) {

@@ -40,10 +40,14 @@ OwnShifts::OwnShifts(const Bench& bench, const Judge& judge, const AsStated& pla
       {.name = "factor", .lower = 0.1, .upper = 10, .low = std::exp(-0.5), .high = std::exp(0.5), .logarithmic = true});
 }
 
-Prediction OwnShifts::at(std::size_t i, Values x, double shift) const {
+Asked OwnShifts::asked(std::size_t i, Values x, double shift) const {
   x.insert(x.end(), place_.x.begin() + static_cast<std::ptrdiff_t>(x.size()), place_.x.end());
   x.push_back(std::exp(shift));
-  return predict(model_, bench_.test(tests_[i]), x);
+  return {model_, bench_.test(tests_[i]), std::move(x)};
+}
+
+Prediction OwnShifts::at(std::size_t i, Values x, double shift) const {
+  return std::move(predict({asked(i, std::move(x), shift)}).front());
 }
 
 MatrixXd OwnShifts::slopes(std::size_t i, double shift) const {

@@ -24,6 +24,7 @@ class OwnShifts {
   std::size_t count() const { return tests_.size(); }
   // numbers: of the fit; what is stated is added.
   Prediction at(std::size_t i, Values numbers, double shift) const;
+  Asked asked(std::size_t i, Values numbers, double shift) const;
   // Derivatives in the numbers and, last, in the shift. Where the numbers hold friction it is theirs, to the bit: the two are
   // told apart by what the tests have in common alone.
   Eigen::MatrixXd slopes(std::size_t i, double shift) const;

@@ -260,18 +260,18 @@ class Findings {
         missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
     const bool fitted = role == Role::calibration && c_.misfit;
     const OutcomeMisfit misfit = fitted ? *c_.misfit : outcome_misfit(probability, fallen, by_draw(all));
-    say("the Brier score of the {} tests is {:.4f}{}; were the model's probabilities right, chance alone would make "
-        "{:.4f} "
-        "+- {:.4f}: {}",
-        whose, brier, fitted ? fmt::format(" ({:.4f} as fitted)", misfit.score) : "", misfit.usual_score,
-        misfit.score_scatter,
+    say("the Brier score of the {} tests is {:.4f}{}; were the model's probabilities {}right, chance alone would make "
+        "{:.4f} +- {:.4f}{}: {}",
+        whose, brier, fitted ? fmt::format(", {:.4f} as fitted", std::abs(misfit.score)) : "",
+        fitted ? "as fitted " : "", std::abs(misfit.usual_score), misfit.score_scatter, fitted ? " of the latter" : "",
         misfit.surer()         ? "the model is surer than it may be, something is missing"
         : misfit.other_count() ? "chance explains that score, but not how many overturned: something is missing"
         : misfit.score < misfit.usual_score - 2 * misfit.score_scatter ? "the model is less sure than it might be"
                                                                        : "chance explains what is missed");
     if (misfit.other_count())
-      say("{} of the {} tests overturned where the model expects {:.1f} +- {:.1f}: it is too {}", overturned, whose,
-          misfit.expected, misfit.count_scatter, misfit.expected > misfit.fell ? "unstable" : "stable");
+      say("{} of the {} tests overturned where the model {}expects {:.1f} +- {:.1f}: it is too {}", overturned, whose,
+          fitted ? "as fitted " : "", misfit.expected, misfit.count_scatter,
+          misfit.expected > misfit.fell ? "unstable" : "stable");
     if (!sure.empty())
       say("against odds of nine to one (probability of overturning in brackets) came out {}", fmt::join(sure, ", "));
   }
@@ -314,7 +314,8 @@ class Findings {
 
   void numbers() {
     const std::size_t tests = tests_of(bench_.data(), Role::calibration).size();
-    if (!model_.free.empty() && tests <= model_.free.size())
+    // A history has many readings.
+    if (kind_of_set(bench_) != Kind::history && !model_.free.empty() && tests <= model_.free.size())
       say("{} calibration tests for {} calibrated numbers: the fit is not determined by them", tests,
           model_.free.size());
     for (std::size_t i = 0; i < model_.free.size() && i < x_.size(); ++i) {

@@ -136,11 +136,10 @@ class Diagnoser : PairSearch {
     if (!closest->laboratory) return;
     const Free& free = closest->fit.model.free.back();
     const double number = closest->fit.x.back();
-    const bool at_its_end = std::min(number - free.lower, free.upper - number) < 1e-3 * (free.upper - free.lower);
     out_.sentences.push_back(fmt::format(
         "of all that was tried the model comes closest to the tests left out, to {:.3g}, if {}{}: measure that again",
         closest->explained, fault_sentence(closest->effects.front(), number),
-        at_its_end ? ", which is as far as the stated tolerance lets it be off; it may be off by more" : ""));
+        at_its_limit(free, number)));
   }
 
   // Is nothing that was tried enough as it is, and the base where all that is stated may be off? Then no effect is needed. Empty: no.
