@@ -340,6 +340,7 @@ def _in_order(edps, summary):
 
 
 HISTORY_COLUMNS = ("time_s", "floor_acceleration_mps2", "slip_m", "slip_velocity_mps", "rotation_rad", "rotation_rate_radps")
+ACROSS_COLUMNS = ("cross_slip_m", "floor_cross_acceleration_mps2")  # where the floor moves in both horizontal directions
 
 
 def read_history(folder):
@@ -359,7 +360,7 @@ def read_history(folder):
         if len(row) != len(header):
             raise Problem(f"{path}:{line} has {len(row)} fields, not {len(header)}: the file is truncated; simulate again")
     columns = {}
-    for name in HISTORY_COLUMNS:
+    for name in HISTORY_COLUMNS + tuple(name for name in ACROSS_COLUMNS if name in header):
         at = header.index(name)
         try:
             columns[name] = np.array([float(row[at]) for row in body])

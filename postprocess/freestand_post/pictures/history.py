@@ -124,7 +124,8 @@ def _finding(history):
     if abs(slip[0]) > 1e-9:  # it starts off its place: how far from there
         peak, left = (100 * float(value) for value in (np.nanmax(np.abs(slip - slip[0])), abs(slip[-1] - slip[0])))
     if peak < 1e-9 and turned < 1e-9:
-        return "The specimen does not move"
+        off = f" from where it starts, {words.number(100 * abs(slip[0]))} cm off its place" if abs(slip[0]) > 1e-9 else ""
+        return f"The specimen does not move{off}"
     if not {"slide", "slide_rock", "flight"} & set(history.mode):
         return f"Rocks up to {words.number(turned)}° without slipping"
     turn = f", rocks up to {words.number(turned)}°" if turned > 1e-9 else ", does not rock"
