@@ -194,7 +194,7 @@ Formula::Formula(const std::string& text, const std::vector<std::string>& parame
   Recorder recorder(*this);
   Recorder::current = &recorder;
   std::vector<double> places;
-  places.reserve(variables().size() + 2 * parameters.size());
+  places.reserve(variables().size() + 3 * parameters.size());  // they stay where they are
   Parser parser;
   const auto define = [&](const std::string& name, int i) {
     if (name.empty() || parser.GetVar().count(name)) return;
