@@ -10,15 +10,37 @@ namespace {
 struct Suffix {
   std::string_view suffix;
   const char* unit;
+  bool si = true;
 };
+constexpr bool other = false;  // of another system
 
 // Longer suffixes before the shorter ones that they end with. Units that freestand does not use stand here so that a
 // key such as width_mm is recognised as a width.
 constexpr std::array<Suffix, 24> suffixes = {{
-    {"_per_s", "1/s"}, {"_radps", "rad/s"}, {"_mps2", "m/s2"}, {"_cmps2", "cm/s2"}, {"_mps", "m/s"}, {"_cmps", "cm/s"},
-    {"_inps", "in/s"}, {"_rad", "rad"},     {"_deg", "deg"},   {"_mm", "mm"},       {"_cm", "cm"},   {"_in", "in"},
-    {"_ft", "ft"},     {"_kg", "kg"},       {"_lb", "lb"},     {"_hz", "Hz"},       {"_ms", "ms"},   {"_min", "min"},
-    {"_gal", "gal"},   {"_m", "m"},         {"_s", "s"},       {"_g", "g"},         {"_n", "N"},   {"_hzps", "Hz/s"},
+    {"_per_s", "1/s"},
+    {"_radps", "rad/s"},
+    {"_mps2", "m/s2"},
+    {"_cmps2", "cm/s2", other},
+    {"_mps", "m/s"},
+    {"_cmps", "cm/s", other},
+    {"_inps", "in/s", other},
+    {"_rad", "rad"},
+    {"_deg", "deg", other},
+    {"_mm", "mm", other},
+    {"_cm", "cm", other},
+    {"_in", "in", other},
+    {"_ft", "ft", other},
+    {"_kg", "kg"},
+    {"_lb", "lb", other},
+    {"_hz", "Hz"},
+    {"_ms", "ms", other},
+    {"_min", "min", other},
+    {"_gal", "gal", other},
+    {"_m", "m"},
+    {"_s", "s"},
+    {"_g", "g", other},
+    {"_n", "N"},
+    {"_hzps", "Hz/s"},
 }};
 
 const Suffix* suffix_of(std::string_view name) {
@@ -65,6 +87,11 @@ std::string nearest(std::string_view given, const std::vector<std::string>& cand
 std::string unit_of(std::string_view name) {
   const Suffix* suffix = suffix_of(name);
   return suffix ? suffix->unit : "1";
+}
+
+bool in_si(std::string_view name) {
+  const Suffix* suffix = suffix_of(name);
+  return !suffix || suffix->si;
 }
 
 std::string_view without_unit(std::string_view name) {

@@ -17,6 +17,9 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
 // Unit of a dotted name from its suffix: block.width_m -> "m", friction.mu -> "1".
 std::string unit_of(std::string_view name);
 
+// Is that unit one of SI, or is there none?
+bool in_si(std::string_view name);
+
 // Name without its unit suffix: width_m -> width, mu -> mu.
 std::string_view without_unit(std::string_view name);
 

@@ -40,6 +40,11 @@ struct Laws {
   bool uses(Input input) const;
   // Any node looks at it.
   bool reads(Input input) const { return read_ >> static_cast<int>(input) & 1U; }
+  // Nothing but a friction and a force, without kinks.
+  bool plain() const {
+    return lift < 0 && moment < 0 && states == 0 && !walls.any() && !(legs.frequency_radps > 0) && carried_mass == 1 &&
+           tape.kink_count() == 0;
+  }
   // They change while nothing moves.
   bool change_at_rest() const { return uses(Input::t) || uses(Input::rest); }
   bool sees_rise() const { return reads(Input::rise) || reads(Input::climb); }

@@ -20,10 +20,7 @@ Linear sum(const Linear& a, const Linear& b, double sign) {
 }  // namespace
 
 std::optional<LinearPull> linear_pull(const Laws& laws) {
-  const bool more = laws.friction >= 0 || laws.lift >= 0 || laws.moment >= 0 || laws.tension >= 0 ||
-                    laws.contents >= 0 || laws.states > 0 || laws.walls.any() || laws.legs.frequency_radps > 0 ||
-                    laws.carried_mass != 1 || laws.tape.kink_count() > 0;
-  if (more || laws.force < 0) return {};
+  if (!laws.plain() || laws.friction >= 0 || laws.force < 0 || laws.tension >= 0 || laws.contents >= 0) return {};
   std::array<Linear, max_nodes> nodes;
   nodes[static_cast<std::size_t>(Input::u)] = {1, 0, 0};
   nodes[static_cast<std::size_t>(Input::v)] = {0, 1, 0};

@@ -52,9 +52,7 @@ bool same_shape(const SlipLaw& a, const SlipLaw& b) {
 }
 
 std::optional<SlipLaw> slip_law(const Laws& laws) {
-  const bool more = laws.force >= 0 || laws.lift >= 0 || laws.moment >= 0 || laws.states > 0 || laws.walls.any() ||
-                    laws.legs.frequency_radps > 0 || laws.carried_mass != 1 || laws.tape.kink_count() > 0;
-  if (more || laws.friction < 0) return {};
+  if (!laws.plain() || laws.force >= 0 || laws.friction < 0) return {};
   constexpr Input seen[slip_places] = {Input::speed, Input::path, Input::sigma};
   std::uint32_t others = laws.tape.dependence(laws.friction);
   for (const Input input : seen) others &= ~(1U << static_cast<int>(input));

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "dynamics/laws.hpp"
@@ -57,17 +56,14 @@ std::string known_parameters(const std::vector<std::string>& names) {
 }
 
 // Laws take their parameters as they are given: in SI.
-constexpr std::array<std::string_view, 11> si_units = {"1",   "m",    "s",  "kg",  "N",    "rad",
-                                                       "m/s", "m/s2", "Hz", "1/s", "rad/s"};
 void check_unit(Section& section, const std::string& effect, const std::string& parameter) {
-  const std::string unit = unit_of(parameter);
-  if (std::find(si_units.begin(), si_units.end(), unit) != si_units.end()) return;
+  if (in_si(parameter)) return;
   section.problem(
       "parameters",
       fmt::format("parameter {} of effect {} has a unit that is not of SI ({}; a formula takes the number as "
                   "it stands): convert the value, and give the name the ending of its SI unit, or one "
                   "that is no unit",
-                  parameter, effect, unit));
+                  parameter, effect, unit_of(parameter)));
 }
 
 std::shared_ptr<const Effect> make_formula(Section& section, const EffectPart& part,

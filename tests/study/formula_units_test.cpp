@@ -19,7 +19,8 @@ TEST(FormulaUnits, OfOtherSystemsAreRefused) {
   for (const char* parameter : {"c_mm", "c_g", "c_deg", "c_ms", "c_ft"})
     EXPECT_THAT(told("-c*v", parameter),
                 HasSubstr(std::string("parameter ") + parameter + " of effect own has a unit"));
-  for (const char* parameter : {"c", "c_m", "c_hz", "c_mps2", "c_rad", "c_kg"}) EXPECT_EQ(told("-c*v", parameter), "");
+  for (const char* parameter : {"c", "c_m", "c_hz", "c_hzps", "c_mps2", "c_rad", "c_kg"})
+    EXPECT_EQ(told("-c*v", parameter), "");
 }
 
 TEST(FormulaUnits, AreLeftOutInTheFormula) {

@@ -17,12 +17,10 @@ namespace {
 
 constexpr int march_slots = 120;  // no power of two, so that a lane's rows do not share a few places of the cache
 
-struct Steady {
-  static constexpr bool shaken = false, pulls = false;
-  static constexpr int stride = 1;  // of the records' rows
-
-  struct Rows {};
-  template <int N>
+// Nothing pulls along the floor.
+struct Free {
+  static constexpr bool pulls = false;
+  template <int N, class Rows>
   static NoPull pull(const Rows&, int, const Pack&, const Pack&, const Pack&) {
     return {};
   }
@@ -30,6 +28,13 @@ struct Steady {
   static Pack turn_over(Rows&, const Pack&, const Pack&, const Pack&) {
     return Pack(0.0);
   }
+};
+
+struct Steady : Free {
+  static constexpr bool shaken = false;
+  static constexpr int stride = 1;  // of the records' rows
+
+  struct Rows {};
   // What is left of an interval.
   struct Interval {
     Interval(const Rows&, int, const double* const*) {}
@@ -56,8 +61,8 @@ struct Steady {
   };
 };
 
-struct Shaken {
-  static constexpr bool shaken = true, pulls = false;
+struct Shaken : Free {
+  static constexpr bool shaken = true;
   static constexpr int stride = 2;
 
   struct Rows {
@@ -67,11 +72,6 @@ struct Shaken {
     alignas(64) double curvature[march_slots] = {};    // as curvature1 of the rows, for changes of v h^2
     auto all() { return std::array{v, weight, per_inertia, curvature}; }
   };
-  template <int N>
-  static NoPull pull(const Rows&, int, const Pack&, const Pack&, const Pack&) {
-    return {};
-  }
-  static Pack turn_over(const Rows&, const Pack&, const Pack&, const Pack&) { return Pack(0.0); }
   class Interval {
    public:
     Interval(const Rows& rows, int i, const double* const* next)

@@ -314,24 +314,24 @@ class SlideRock : public SlideRockSliding {
   template <int K>
   void feel_top(const CornerSeries<K>& y, double x, double hs, Field next, const Forces& begin, const Forces& end) {
     const double first = square_of_forces(begin), last = square_of_forces(end), more = 0.01 * (first + last);
-    double middle = 0.5 * x;
     if constexpr (Gravity::pulls) {
       if (square_of(std::sqrt(larger(first, last) + more) + pull_bends(y, hs), 0) < force2_) return;
       constexpr int parts = 16;
-      double most = 0;
+      double square[parts + 1] = {first};
+      int top = 1;
       for (int part = 1; part < parts; ++part) {
-        const double at = x * part / parts, here = square_of_forces(forces_at(y, at, hs, next));
-        if (here > most) most = here, middle = at;
+        square[part] = square_of_forces(forces_at(y, x * part / parts, hs, next));
+        if (square[part] > square[top]) top = part;
       }
-      const double beside = x / parts;
-      const double left = square_of_forces(forces_at(y, middle - beside, hs, next)),
-                   right = square_of_forces(forces_at(y, middle + beside, hs, next)), curve = left + right - 2 * most;
-      force2_ = larger(force2_, most);
-      if (curve < 0 && most >= left && most >= right)
-        feel(forces_at(y, middle + 0.5 * beside * (left - right) / curve, hs, next));
+      square[parts] = last;
+      force2_ = larger(force2_, square[top]);
+      const double left = square[top - 1], right = square[top + 1], curve = left + right - 2 * square[top];
+      if (curve < 0 && square[top] >= left && square[top] >= right)
+        feel(forces_at(y, x / parts * (top + 0.5 * (left - right) / curve), hs, next));
       return;
     }
     if (larger(first, last) + more < force2_) return;
+    double middle = 0.5 * x;
     for (int round = 0; round < 3; ++round) {
       const double here = square_of_forces(forces_at(y, middle, hs, next));
       force2_ = larger(force2_, here);
@@ -362,7 +362,7 @@ class SlideRock : public SlideRockSliding {
     ended_ = true;
     overturned_ = true;
     end_ = now() + hs * hi;
-    if (too_late()) decline();
+    if (end_ > latest()) decline();
   }
 };
 

@@ -86,10 +86,9 @@ class SlideRockBlock {
   void next_knot() {
     ++m_;
     stand_at_knot();
-    if (m_ > last_ && now() >= h_ * last_ + c_.free_vibration_s) declined_ = true;
+    if (m_ > last_ && now() >= latest()) declined_ = true;
   }
-  // Its end is later than is waited for: what is told then, single samples know.
-  bool too_late() const { return end_ > h_ * last_ + c_.free_vibration_s; }
+  double latest() const { return h_ * last_ + c_.free_vibration_s; }  // until when its rest is waited for
   // Forward by a part x of what is left of the interval. A rest of 1e-12 of it is the next knot: at 100 intervals a second that misses 1e-14 s,
   // to which events are located.
   void forward(double x) {

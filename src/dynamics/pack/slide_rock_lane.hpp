@@ -88,7 +88,8 @@ class SlideRockLane : public SlideRockBlock {
     r.size[i] = c_.h;
     r.sigma[i] = side_ * sigma_;
     r.friction[i] = side_ * sigma_ * c_.mu_k;
-    enter_midpoint(r, i);
+    r.half_base[i] = half_base_;
+    enter_levers(r, i);
     r.look[i] = peak_rotation_;
     r.peak[i] = peak_slip_;
     r.seen[i] = force2_ * (h2 * h2);
@@ -182,20 +183,17 @@ class SlideRockLane : public SlideRockBlock {
     if constexpr (Rows::Gravity::shaken) r.shakes.v[i] = fraction_ == 1 ? row[1] : (g_ - c_.g) / c_.vertical_scale;
     return free;
   }
+  // Mirrored.
   template <class Rows>
-  void enter_midpoint(Rows& r, int i) const {
-    const double b = magnitude(arm(side_)), lever = half_base_ / (c_.h * c_.h + b * b);
-    r.half_base[i] = half_base_;
-    r.lever_x[i] = lever * b;
-    r.lever_y[i] = lever * c_.h;
+  void enter_levers(Rows& r, int i) const {
+    r.lever_x[i] = lever() * arm(side_);
+    r.lever_y[i] = side_ * lever() * c_.h;
   }
   // Mirrored by s.
   void enter_pull(Pulled::Rows& r, int i, double s) const {
-    const double b = magnitude(arm(side_)), lever = half_base_ / (c_.h * c_.h + b * b);
+    enter_levers(r, i);
     r.stiffness[i] = s * c_.stiffness / c_.scale;
     r.drag[i] = s * c_.drag / (c_.scale * h_);
-    r.lever_x[i] = lever * b;
-    r.lever_y[i] = lever * c_.h;
     r.share[i] = magnitude(c_.scale) / (c_.g + magnitude(c_.scale) * t_.later_peak[0]);
   }
   // False: it has not moved.

@@ -62,7 +62,7 @@ class SlideRockSlides : public LaneGroup<FlatRows<Gravity, Friction>> {
     const Pack fraction2, weight;
     FlatSeries<N, Pack> y;
     typename Friction::template Factor<N> factor;
-    decltype(Gravity::template pull<N>({}, 0, fraction2, fraction2, fraction2)) pull;
+    decltype(Gravity::template pull<N>(typename Gravity::Rows{}, 0, fraction2, fraction2, fraction2)) pull;
     const Pack friction;  // of Coulomb's law, in the units of the series
 
     [[gnu::always_inline]] Step(const FlatRows<Gravity, Friction>& r, int i, const Pack& fraction, const Pack& sigma,

@@ -108,7 +108,7 @@ class SlideRockSlips : public LaneGroup<SlipRows<Gravity, Friction>> {
     const Pack fraction, fraction2, omega0, w0, slope, a, a_next, weight_g, k2, friction, sigma;
     const typename Gravity::Interval shakes;
     typename Friction::template Factor<N> factor;
-    decltype(Gravity::template pull<N>({}, 0, fraction, fraction, fraction)) pull;
+    decltype(Gravity::template pull<N>(typename Gravity::Rows{}, 0, fraction, fraction, fraction)) pull;
     CornerSeries<N, Pack> y;
     decltype(shakes.gravity(weight_g) * fraction2) field;
 

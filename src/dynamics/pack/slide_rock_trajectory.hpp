@@ -71,7 +71,7 @@ class SlideRockTrajectory : public SlideRockHops {
     }
     ended_ = true;
     end_ = m_ < last_ ? h_ * last_ : larger(now(), hops_end_);
-    if (too_late()) decline();
+    if (end_ > latest()) decline();  // single samples know what is told then
   }
   // First knot from j on that may end the rest; `least`: of the unit record, at gravity's lowest.
   int next_loud(int j, double least) const {
