@@ -8,6 +8,7 @@
 #include "base/shown_text.hpp"
 #include "io/provenance.hpp"
 #include "parallel/stop.hpp"
+#include "study/kernel_number.hpp"
 
 namespace {
 
@@ -65,6 +66,7 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
   freestand::app::add_reproduce(parser, work);
   try {
     parser.parse(argc, argv);
+    freestand::study::refuse_mixed_machines(world);
     return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));
   } catch (const CLI::ParseError& error) {
     return tell(parser, argc > 1 ? argv[1] : "", error, world);

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <freestand/error.hpp>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
@@ -117,10 +118,16 @@ Holder holder_of(const Json& json) {
   return ended || found->started != json.value("process_started", "") ? Holder::dead : Holder::alive;
 }
 
-// An empty object where a lock is no JSON: its holder is then not known.
+// What a lock tells of its holder, where it is of the kind that is meant: whatever else lies under its name tells nothing.
 Json parsed(const std::string& text) {
   const Json json = Json::parse(text, nullptr, false);
-  return json.is_object() ? json : Json::object();
+  Json known = Json::object();
+  if (!json.is_object()) return known;
+  for (const auto& [key, value] : json.items()) {
+    const bool number = value.is_number_integer() && value >= 0 && value <= std::numeric_limits<int>::max();
+    if (key == "process" ? number : value.is_string()) known[key] = value;
+  }
+  return known;
 }
 
 std::string description(const Json& json) {

@@ -136,8 +136,9 @@ void BlockLog::look_into(const RunFile& log) {
           other);
     if (header.kernel != kernel_)
       throw Error(
-          fmt::format("{} holds samples of another version of freestand, which gives other numbers (kernel {:08x}, "
-                      "this one's is {:08x}): resume with the program it was started with, or start again with "
+          fmt::format("{} holds samples of another version of freestand or kind of machine, which gives other numbers "
+                      "(kernel {:08x}, "
+                      "this one's is {:08x}): resume with the program it was started with, there, or start again with "
                       "--overwrite",
                       folder_.string(), header.kernel, kernel_));
     places_.push_back({header.block, log.run, log.node, offset});

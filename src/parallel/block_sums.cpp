@@ -137,11 +137,11 @@ BlockSums::Content BlockSums::read(const fs::path& path) const {
     throw OtherBlocks(fmt::format("{} holds counts of another study: choose another output folder", folder_.string()),
                       other);
   if (parts.header.kernel != kernel_)
-    throw Error(
-        fmt::format("{} holds counts of another version of freestand, which gives other numbers (kernel {:08x}, "
-                    "this one's is {:08x}): resume with the program it was started with, or start again with "
-                    "--overwrite",
-                    folder_.string(), parts.header.kernel, kernel_));
+    throw Error(fmt::format(
+        "{} holds counts of another version of freestand or kind of machine, which gives other numbers (kernel {:08x}, "
+        "this one's is {:08x}): resume with the program it was started with, there, or start again with "
+        "--overwrite",
+        folder_.string(), parts.header.kernel, kernel_));
   if (parts.header.blocks != blocks_ || static_cast<std::size_t>(parts.header.words) != words_)
     throw Error(
         fmt::format("{} cannot be used (it counts something else): its blocks are counted again", path.string()),

@@ -1,5 +1,5 @@
 // What lies in the folder of unfinished work, as a whole: the log of samples (block_log.hpp), the sums over them
-// (block_sums.hpp), the rounds in which they are made (study/rounds.hpp), the size of blocks (study/checkpoint.hpp) and the entry of a
+// (block_sums.hpp), the rounds in which they are made (study/rounds.hpp), the size of blocks (study/block_size.hpp) and the entry of a
 // catalogue that they are of (study/build_catalogue.cpp), of whatever study.
 #pragma once
 

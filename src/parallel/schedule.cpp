@@ -125,9 +125,9 @@ BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, const Taker
   return {total, total};
 }
 
-bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& todo, const BlockFunction& compute,
+bool for_each_block(const Communicator& world, const BlockList& todo, const BlockFunction& compute,
                     Progress* progress) {
-  const auto total = static_cast<std::int64_t>(todo.size());
+  const std::int64_t total = todo.size();
   Ledger ledger(world);
   NodeBlocks node(world);
   auto last = Clock::now();
@@ -156,7 +156,7 @@ bool for_each_block(const Communicator& world, const std::vector<std::int64_t>& 
   while (!stop_requested()) {
     const std::optional<std::int64_t> next = node.next(take, wait_for_others);
     if (!next) break;
-    const Counts counts = compute(todo[static_cast<std::size_t>(*next)], beat);
+    const Counts counts = compute(todo[*next], beat);
     told_later.samples += counts.samples;
     told_later.overturned += counts.overturned;
     told_later.failed += counts.failed;

@@ -3,14 +3,14 @@
 //
 // The counter lies in a window of rank 0 and is raised by MPI_Fetch_and_op; what a node has taken lies in its memory. On one node the
 // window is shared memory: a rank takes blocks without rank 0 taking part. Between nodes without remote atomics, rank 0
-// serves the others each time it calls the beat; so blocks call it between samples. 10^4 ranks on a hundred nodes ask for a million
-// blocks ten thousand times.
+// serves the others each time it calls the beat; so blocks call it between samples. 10^4 ranks on a hundred nodes ask 8,600 times
+// for 1.2 million blocks.
 #pragma once
 
 #include <cstdint>
 #include <functional>
-#include <vector>
 
+#include "parallel/block_list.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/progress.hpp"
 
@@ -54,7 +54,7 @@ BlockRange blocks_of_ticket(std::int64_t ticket, std::int64_t total, const Taker
 // is free, about in the order of the list (with one rank, just so). Returns true when all blocks are done; false when a stop was requested on any rank
 // (stop.hpp): open blocks are then finished and no more are taken. The same answer on every rank. Collective.
 // `progress`, on rank 0, is shown what is done.
-bool for_each_block(const Communicator&, const std::vector<std::int64_t>& todo, const BlockFunction& compute,
+bool for_each_block(const Communicator&, const BlockList& todo, const BlockFunction& compute,
                     Progress* progress = nullptr);
 
 }  // namespace freestand::parallel

@@ -1,16 +1,10 @@
 #include "study/checkpoint.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <bit>
-#include <freestand/error.hpp>
-#include <sstream>
 
-#include "base/durable_file.hpp"
 #include "base/random.hpp"
-#include "parallel/finished_blocks.hpp"
-#include "parallel/run_files.hpp"
+#include "study/block_size.hpp"
 #include "study/kernel_number.hpp"
 #include "study/sweep.hpp"
 
@@ -24,86 +18,12 @@ constexpr std::chrono::seconds pause_between_sums{1};
 std::uint32_t kernel_of(const std::vector<Column>& columns) {
   std::string names;
   for (const Column& column : columns) names += column.name + "\n";
-  return kernel_number ^ static_cast<std::uint32_t>(random::stable_hash(names));
+  return kernel_here() ^ static_cast<std::uint32_t>(random::stable_hash(names));
 }
 
 std::string fingerprint_of(const Study& study, const Evaluator& evaluator, bool all_kept) {
   return samples_fingerprint(study) + (all_kept ? "" : counts_fingerprint(study)) +
          (study.until ? fingerprint(study) : "") + evaluator.motions().fingerprint();
-}
-
-// Whoever is asked to stop gives up what takes longer than some seconds (run_folder.hpp): a block should not.
-std::int64_t size_by_time(const Study& study, const Evaluator& evaluator, double block_s) {
-  constexpr std::int64_t least = 8, plenty_of_blocks = 1 << 20;
-  using Clock = std::chrono::steady_clock;
-  const auto samples = static_cast<std::int64_t>(study.samples);
-  auto size = static_cast<std::int64_t>(study.block_size);
-  const std::int64_t most = std::min(size, samples);
-  std::vector<double> rows;
-  const auto start = Clock::now();
-  std::chrono::duration<double> took{0};
-  std::int64_t done = 0;
-  while (done < most && took.count() < block_s / 20) {
-    const std::int64_t more = std::min(std::max(least, done), most - done);
-    evaluator.append(static_cast<std::uint64_t>(done), static_cast<std::size_t>(more), rows);
-    done += more;
-    took = Clock::now() - start;
-  }
-  const double each_s = took.count() / static_cast<double>(done);
-  while (size % 2 == 0 && size / 2 >= least && samples / (size / 2) <= plenty_of_blocks &&
-         each_s * static_cast<double>(size) > block_s)
-    size /= 2;
-  return size;
-}
-
-std::string size_text(const std::string& fingerprint, std::int64_t size) {
-  return fmt::format("{}\n{}\nend\n", fingerprint, size);
-}
-
-struct KeptSize {
-  std::int64_t size = 0;  // 0: none is told, or it is of another study
-  bool damaged = false;   // every copy that is there
-};
-
-// The size that earlier runs took. Kept twice, since finished blocks are worth nothing without it.
-KeptSize kept_size(const std::vector<std::filesystem::path>& copies, const std::string& fingerprint) {
-  std::size_t damaged = 0, there = 0;
-  for (const std::filesystem::path& file : copies) {
-    if (!std::filesystem::exists(file)) continue;
-    const std::string text = read_whole(file);
-    std::istringstream words(text);
-    std::string whose;
-    std::int64_t size = 0;
-    words >> whose >> size;
-    const bool sound = size > 0 && size_text(whose, size) == text;
-    if (sound && whose == fingerprint) return {.size = size};
-    damaged += !sound;
-    ++there;
-  }
-  return {.damaged = there > 0 && damaged == there};
-}
-
-// On the root.
-std::int64_t decided_size(const Study& study, const Evaluator& evaluator, const std::filesystem::path& folder,
-                          double block_s) {
-  const std::filesystem::path blocks = blocks_path(folder);
-  const std::vector<std::filesystem::path> copies = {parallel::run_file(blocks, 0, 0, "size"),
-                                                     parallel::run_file(blocks, 0, 1, "size")};
-  const std::string fingerprint = samples_fingerprint(study) + evaluator.motions().fingerprint();
-  auto [size, damaged] = kept_size(copies, fingerprint);
-  if (size == 0 && parallel::count_finished_blocks(blocks) > 0) {
-    if (damaged)
-      throw Error(
-          fmt::format("{} cannot be gone on with (how many samples its blocks hold is not known any more): give "
-                      "--overwrite to begin anew",
-                      blocks.string()));
-    return static_cast<std::int64_t>(study.block_size);  // of another study, which is refused
-  }
-  if (size == 0) size = size_by_time(study, evaluator, block_s);
-  const std::string text = size_text(fingerprint, size);
-  for (const std::filesystem::path& file : copies)
-    if (!std::filesystem::exists(file) || read_whole(file) != text) write_durably(file, text);
-  return size;
 }
 
 // Samples 0 ... count - 1, of which every rank integrates a part: their bits travel as whole numbers.
@@ -122,13 +42,6 @@ Table first_samples(const parallel::Communicator& world, const Evaluator& evalua
 }
 
 }  // namespace
-
-std::int64_t samples_in_a_block(const parallel::Communicator& world, const Study& study, const Evaluator& evaluator,
-                                const std::filesystem::path& folder, double block_s) {
-  parallel::Words size{0};
-  world.on_root([&] { size[0] = decided_size(study, evaluator, folder, block_s); });
-  return world.broadcast(size)[0];
-}
 
 Checkpoint::Checkpoint(const parallel::Communicator& world, const Study& study, const Target& target,
                        const Evaluator& evaluator, const std::filesystem::path& folder)

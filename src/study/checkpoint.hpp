@@ -18,13 +18,6 @@
 
 namespace freestand::study {
 
-// How many samples a block of the sweep holds: block_size of the study, halved while it is even and a block would take longer than
-// block_s seconds, as some first samples tell that the root integrates. Not below 8, which go in packs, nor where that would make more
-// than a million blocks. Earlier runs in the folder have decided it for good. The numbers of a study do not depend on it. Collective.
-// Throws Error: a full disk is Exit::cure; blocks are finished, and it cannot be read how many samples they hold: Exit::usage.
-std::int64_t samples_in_a_block(const parallel::Communicator&, const Study&, const Evaluator&,
-                                const std::filesystem::path& folder, double block_s = 2);
-
 class Checkpoint {
  public:
   // The study, its target and the evaluator outlive it. Where not all samples are kept, the ranks integrate the first ones

@@ -63,13 +63,12 @@ EarlierSamples::EarlierSamples(const Study& study, const std::filesystem::path& 
 
 void EarlierSamples::check(const std::vector<Column>& columns, const std::string& motions_fingerprint) const {
   if (!reader_) return;
-  const bool same_program =
-      reader_->provenance().kernel == fmt::format("{:08x}", kernel_number) && same_names(reader_->columns(), columns);
+  const bool same_program = reader_->provenance().kernel == kernel_text() && same_names(reader_->columns(), columns);
   if (!same_program)
-    throw Error(
-        fmt::format("{} holds samples of another version of freestand, which gives other numbers: add to them "
-                    "with the program that made them; or {}",
-                    folder_.string(), other_folder));
+    throw Error(fmt::format(
+        "{} holds samples of another version of freestand or kind of machine, which gives other numbers: add to them "
+        "with the program that made them, there; or {}",
+        folder_.string(), other_folder));
   if (reader_->motions().fingerprint != motions_fingerprint)
     throw Error(
         fmt::format("{} holds samples of other records (one has other contents now, or another name): take it "

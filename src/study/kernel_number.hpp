@@ -3,13 +3,22 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+
+#include "parallel/communicator.hpp"
 
 namespace freestand::study {
 
 // Hash of the rows of a fixed set of samples (tests/study/kernel_number_test.cpp), the same with any instruction set of the
-// packs and on any number of ranks; only on machines without FMA does the mathematical library give other last bits. When
-// draws, motions, the kernel or demands give other bits, that test fails and says what to write here. A change
-// that it does not notice wants a sample in its set that does.
+// packs and on any number of ranks. When draws, motions, the kernel or demands give other bits, that test fails and says what to write here. A
+// change that it does not notice wants a sample in its set that does.
 inline constexpr std::uint32_t kernel_number = 0x4ab88ae1;
+
+// With the last bits of this machine's mathematical library, which are others on processors without FMA and in some of its versions.
+std::uint32_t kernel_here();
+std::string kernel_text();
+
+// Throws Error (Exit::usage) where ranks run on machines whose numbers differ. Collective.
+void refuse_mixed_machines(const parallel::Communicator&);
 
 }  // namespace freestand::study

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <limits>
 #include <tuple>
 
@@ -10,6 +9,7 @@
 #include "fragility/options.hpp"
 #include "intensity/intensity.hpp"
 #include "study/accuracy.hpp"
+#include "study/block_size.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/known.hpp"
 #include "study/paths.hpp"
@@ -48,14 +48,7 @@ void read_common(Section& file, const std::filesystem::path& path, Study& study,
                              *study.acceleration_height_m, top));
 }
 
-// 1/1000 of the samples, a power of two between 256 and 8192: enough blocks to share among ranks, and whole nets of the
-// Sobol sequence.
-std::uint64_t default_block_size(std::uint64_t samples) {
-  return std::bit_floor(std::clamp<std::uint64_t>(samples / 1000, 256, 8192));
-}
-
 constexpr std::uint64_t most_samples = 1ULL << 50;
-constexpr std::uint64_t most_blocks = 1ULL << 22;  // each is some tens of bytes on every rank
 
 void read_until(Section& file, Study& study) {
   const YAML::Node* node = file.find("until");
@@ -122,14 +115,16 @@ void read_design(Section& file, Study& study) {
                  "latin_hypercube does not go with until (its strata depend on the number of samples): give "
                  "samples, or use sobol");
   read_keep(file, study);
-  study.block_size = file.integer("block_size", default_block_size(study.samples), 1, 1U << 20);
-  if (study.samples / study.block_size > most_blocks)
-    file.problem(
-        study.until ? "until" : "samples",
-        fmt::format(
-            "{} samples in blocks of {} are more than {} blocks (of each every rank must know whether it is finished): "
-            "lower {}, or raise block_size",
-            study.samples, study.block_size, most_blocks, study.until ? "at_most" : "samples"));
+  study.block_size = file.integer(
+      "block_size", static_cast<std::uint64_t>(default_block_size(static_cast<std::int64_t>(study.samples))), 1,
+      1U << 20);
+  if (!few_enough_blocks(study, static_cast<std::int64_t>(study.block_size)))
+    file.problem(study.until ? "until" : "samples",
+                 fmt::format("{} samples in blocks of {} are too many blocks ({} at most, {} of samples that are kept: "
+                             "of each every rank "
+                             "knows whether it is finished): lower {}, or raise block_size",
+                             study.samples, study.block_size, most_blocks, most_kept_blocks,
+                             study.until ? "at_most" : "samples"));
 }
 
 // A case is one sample: no distribution anywhere.

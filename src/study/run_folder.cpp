@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <sstream>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -22,9 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Batch systems give 30 s and more between the request and the end, and mpirun ends all ranks when the first one has gone:
-// the root, which speaks for all, goes first.
-constexpr double patience_of_root_s = 7, patience_of_others_s = 8;
+// mpirun ends all ranks when the first one has gone: the root, which speaks for all, goes first.
+constexpr double patience_of_others_s = patience_s + 1;
 
 // What is finished, as a number that is another one when there is more, and 0 where there is nothing: by how long the logs of blocks are, what is
 // counted, and when samples.h5 was written (less than 0 for the clock of some libraries).
@@ -45,7 +45,7 @@ RunFolder::RunFolder(const parallel::Communicator& world, const fs::path& folder
     : world_(world),
       folder_(folder),
       go_on_(std::move(go_on)),
-      stop_on_signal_({world.is_root() ? patience_of_root_s : patience_of_others_s, [this] { overdue(); }}) {
+      stop_on_signal_({world.is_root() ? patience_s : patience_of_others_s, [this] { overdue(); }}) {
   std::signal(SIGPIPE, SIG_IGN);  // who read the progress may leave; the run goes on
   world_.on_root([&] {
     io::make_output_folder(folder_, existing, files);
@@ -56,14 +56,21 @@ RunFolder::RunFolder(const parallel::Communicator& world, const fs::path& folder
   refuse_other_folders();
 }
 
-// The root's lock is there for all, or this is not its folder. A network file system may show it late.
+// The root's lock is there for all, word for word, or this is not its folder: a lock of a run that died may lie in another one. A network file
+// system may show it late.
 void RunFolder::refuse_other_folders() const {
+  const auto text = [this] {
+    std::error_code ignored;
+    const fs::directory_iterator refreshed(folder_, ignored);
+    std::ostringstream words;
+    words << std::ifstream(folder_ / io::lock_name).rdbuf();
+    return words.str();
+  };
+  const std::string roots = world_.broadcast(world_.is_root() ? text() : std::string());
   bool seen = false;
   for (int tries = 0; tries < 200 && !seen; ++tries) {
     if (tries > 0) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    std::error_code ignored;
-    const fs::directory_iterator refreshed(folder_, ignored);
-    seen = fs::exists(folder_ / io::lock_name, ignored);
+    seen = text() == roots;
   }
   const auto all = world_.gather({seen});
   world_.on_root([&] {

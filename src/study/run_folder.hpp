@@ -17,11 +17,14 @@
 
 namespace freestand::study {
 
+// Batch systems give 30 s and more between the request and the end.
+inline constexpr double patience_s = 7;
+
 class RunFolder {
  public:
   // Makes the folder, takes its lock, and then does with what is in it as `existing` says. `go_on`: what the user is told
-  // to do after a stop ("go on with --resume"). A run that has not ended 7 s after it was asked to stop is ended where it
-  // stands. Collective, as all below. Throws Error as io::FolderLock and io::prepare_output_folder do, and where the folder is
+  // to do after a stop ("go on with --resume"). A run that has not ended patience_s after it was asked to stop is ended where
+  // it stands. Collective, as all below. Throws Error as io::FolderLock and io::prepare_output_folder do, and where the folder is
   // another one for some rank (Exit::usage): local to its node.
   RunFolder(const parallel::Communicator&, const std::filesystem::path& folder, io::Existing existing,
             std::string go_on, const io::CommandFiles& files = {});

@@ -176,7 +176,7 @@ class Sweep {
 
   // All blocks of the first `samples` samples.
   void compute(std::int64_t samples) {
-    parallel::Words todo;
+    parallel::BlockList todo;
     std::int64_t there = 0;
     for (std::int64_t block = 0; block < layout(samples).blocks(); ++block) {
       const std::int64_t rows = layout(samples).rows(block), earlier = earlier_rows(samples, block);
@@ -315,7 +315,7 @@ class Sweep {
     header.provenance.seed = study_.seed;
     header.provenance.samples = samples;
     if (rounds_.alike() < samples) header.provenance.alike = rounds_.alike();
-    header.provenance.kernel = fmt::format("{:08x}", kernel_number);
+    header.provenance.kernel = kernel_text();
     folder_.confirm();
     if (checkpoint_->counts()) {
       const parallel::Words words = checkpoint_->counted();

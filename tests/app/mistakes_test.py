@@ -142,15 +142,17 @@ class Mistakes(InFolder):
     def test_a_folder_that_is_another_one_on_another_node_is_noticed_before_anything_is_computed(self):
         study, disk = self.write("study.yaml", study_text(samples=200)), self.folder / "disk"
         disk.mkdir()
-        alone = ["unshare", "--mount", "sh", "-c", f"mount -t tmpfs tmpfs {disk} && exec \"$@\"", "sh"]
-        if subprocess.run([*alone, "true"], capture_output=True).returncode:
-            self.skipTest("no right to mount a file system for one process here")
         one = command(["run", study, "-o", disk / "out", "--quiet"])
-        done = subprocess.run([MPIEXEC, "-n", "1", *one, ":", "-n", "1", *alone, *one], capture_output=True, text=True, timeout=100)
-        self.assertEqual(done.returncode, 2, done.stderr)
-        self.assertIn("is not the same folder on every node (rank 1", done.stderr)
-        self.assertEqual(done.stderr.count("not the same folder"), 1)
-        self.assertEqual(list((disk / "out").iterdir()), [])
+        # An empty folder, and one in which a run that died has left its lock.
+        for left in ("true", f"mkdir {disk}/out && echo '{{}}' >{disk}/out/freestand.lock"):
+            alone = ["unshare", "--mount", "sh", "-c", f"mount -t tmpfs tmpfs {disk} && {left} && exec \"$@\"", "sh"]
+            if subprocess.run([*alone, "true"], capture_output=True).returncode:
+                self.skipTest("no right to mount a file system for one process here")
+            done = subprocess.run([MPIEXEC, "-n", "1", *one, ":", "-n", "1", *alone, *one], capture_output=True, text=True, timeout=100)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn("is not the same folder on every node (rank 1", done.stderr)
+            self.assertEqual(done.stderr.count("not the same folder"), 1)
+            self.assertEqual(list((disk / "out").iterdir()), [])
 
     @unittest.skipIf(os.geteuid() == 0, "root may write anywhere")
     def test_no_write_permission(self):

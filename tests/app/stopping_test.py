@@ -7,7 +7,7 @@ import subprocess
 import time
 import unittest
 
-from support import CONFIGS, FREESTAND, InFolder, command, datasets, finished_blocks, result, slow_fit, study_text
+from support import CONFIGS, FREESTAND, MPIEXEC, InFolder, command, datasets, finished_blocks, result, slow_fit, study_text
 
 
 def contents(folder):
@@ -187,6 +187,24 @@ class OneFolder(Stopping):
         header[112:120] = checksum.to_bytes(8, "little")
         log.write_bytes(header)
         self.fail_with(2, ["sweep", study, "-o", folder, "--resume", "--quiet"], "another version of freestand")
+
+    def test_machines_whose_mathematical_library_gives_other_bits_do_not_work_together(self):
+        # The C library's functions without fused multiply-add, as on processors that have none.
+        older = "glibc.cpu.hwcaps=-FMA,-AVX2,-AVX2_Usable,-FMA_Usable"
+        study, folder = self.write("study.yaml", study_text(samples=200)), self.folder / "out"
+        self.succeed(["run", study, "-o", folder, "--quiet"])
+        self.write("study.yaml", study_text(samples=400))
+        command_line = command(["run", study, "-o", folder, "--quiet", "--resume"])
+        resumed = subprocess.run(command_line, capture_output=True, text=True, timeout=100, env={**os.environ, "GLIBC_TUNABLES": older})
+        if resumed.returncode == 0 and " fma " not in pathlib.Path("/proc/cpuinfo").read_text():
+            self.skipTest("this processor has no fused multiply-add")
+        self.assertEqual(resumed.returncode, 2, resumed.stderr)
+        self.assertIn("kind of machine", resumed.stderr)
+        mixed = [MPIEXEC, "-n", "1", *command_line, ":", "-n", "1", "env", f"GLIBC_TUNABLES={older}", *command_line]
+        done = subprocess.run(mixed, capture_output=True, text=True, timeout=100)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertEqual(done.stderr.count("rank 1 would give other numbers than rank 0"), 1, done.stderr)
+        self.succeed(["run", study, "-o", folder, "--quiet", "--resume"])
 
     def test_a_block_that_cannot_be_read_is_computed_again(self):
         study = self.write("study.yaml", study_text(samples=12000))

@@ -79,6 +79,17 @@ TEST(FolderLock, IsGivenBackAtTheEndAndOnErrors) {
   EXPECT_TRUE(fs::is_empty(scratch.folder()));
 }
 
+// Whatever lies under the name of a lock is watched like one whose holder cannot be looked up.
+TEST(FolderLock, WhatIsNoLockIsTakenOverAfterASilence) {
+  for (const char* text :
+       {"", "no JSON", "[1]", R"({"process_table": 5})", R"({"host": 5, "process": "many", "job": {}, "since": [1]})",
+        R"({"host": "node7", "process": 1e300})", R"({"host": "node7", "process": -1, "process_table": null})"}) {
+    const test::Scratch scratch("lock");
+    put_lock(scratch.folder(), text);
+    EXPECT_NO_THROW(FolderLock(scratch.folder(), quick())) << text;
+  }
+}
+
 // Whoever died while it took a lock over keeps nobody out for longer than a holder may be silent, and leaves a file that others remove.
 TEST(FolderLock, WhatATakerLeftKeepsNobodyOut) {
   const test::Scratch scratch("lock");

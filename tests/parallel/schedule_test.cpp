@@ -21,6 +21,15 @@ TEST(Schedule, OneRankDoesAllBlocksInTheOrderOfTheList) {
   EXPECT_EQ(done, (Words{4, 0, 9}));
 }
 
+TEST(Schedule, AListOfBlocksIsWhatWasPutIntoIt) {
+  const Words blocks{7, 8, 9, 2, 3, 5, 5, 6, 100, 0};
+  const BlockList list(blocks);
+  ASSERT_EQ(list.size(), 10);
+  for (std::int64_t place = 0; place < list.size(); ++place)
+    EXPECT_EQ(list[place], blocks[static_cast<std::size_t>(place)]) << place;
+  EXPECT_TRUE(BlockList().empty());
+}
+
 TEST(Schedule, NothingToDoIsDone) {
   EXPECT_TRUE(for_each_block(Communicator(), {}, [](std::int64_t, const Beat&) -> Counts { throw 1; }));
 }

@@ -9,7 +9,8 @@
 #include "io/samples_file.hpp"
 #include "parallel/finished_blocks.hpp"
 #include "parallel/stop.hpp"
-#include "study/checkpoint.hpp"
+#include "study/block_size.hpp"
+#include "study/evaluator.hpp"
 #include "study/known.hpp"
 #include "study/run_folder.hpp"
 #include "study/study_text.hpp"
@@ -41,8 +42,14 @@ TEST(BlockTime, HalvesBlocksThatTakeLonger) {
   EXPECT_EQ(size_in(Scratch("short") / "a", study_of(small), no_time), 8);
   EXPECT_EQ(size_in(Scratch("odd") / "a", study_of(small + "block_size: 100\n"), no_time), 25);
   EXPECT_EQ(size_in(Scratch("one") / "a", study_of(small + "block_size: 1\n"), no_time), 1);
-  // Not into more than a million.
-  EXPECT_EQ(size_in(Scratch("many") / "a", study_of("samples: 100000000\nkeep: none\n"), no_time), 128);
+}
+
+// A sweep of dear samples can be stopped whatever its size: blocks are as small as the memory of their number allows, and what is too long is told.
+TEST(BlockTime, IsBoundedByTheNumberOfBlocks) {
+  EXPECT_EQ(size_in(Scratch("many") / "a", study_of("samples: 100000000\nkeep: none\n"), no_time), 8);
+  EXPECT_EQ(size_in(Scratch("kept") / "a", study_of("samples: 100000000\nkeep: all\n"), no_time), 32);
+  EXPECT_EQ(size_in(Scratch("most") / "a", study_of("samples: 10000000000\n"), no_time), 512);
+  EXPECT_TRUE(few_enough_blocks(study_of("samples: 10000000000\nblock_size: 512\n"), 512));
 }
 
 TEST(BlockTime, IsDecidedOnceForAStudy) {

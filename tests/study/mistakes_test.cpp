@@ -314,7 +314,7 @@ TEST(StudyMistakes, InTheSweep) {
       {sound + "seed: -1\n", "6", "seed is -1"},
       {sound + "tolerance: 0\n", "6", "tolerance is 0"},
       {sound + "tolerance: 1e-30\n", "6", "tolerance is 1e-30 (it must lie between 1e-12"},
-      {without + "samples: 1000000000000000\n", "5", "are more than 4194304 blocks"},
+      {without + "samples: 1000000000000000\n", "5", "are too many blocks (33554432 at most, 4194304 of samples that are kept"},
       {without + "until: {half_width: 0.02, at_most: 1000000000000}\nblock_size: 2\n", "5", "lower at_most"},
       {sound + "free_vibration: 3\n", "6", "write free_vibration_s"},
       {sound + "block_size: 0\n", "6", "block_size is 0"},
