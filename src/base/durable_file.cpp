@@ -39,7 +39,10 @@ Advice advice(int error_number) {
     case EPERM:
       return {"choose a folder that you may write to, or change its permissions", Exit::usage};
     case EINTR:
-    case ESTALE:
+    case ESTALE:  // and others of a file server that was away
+    case ETIMEDOUT:
+    case ENOTCONN:
+    case ESHUTDOWN:
       return {"start again; what a sweep has written of its work is kept", Exit::resumable};
     case ENOENT:
     case ENOTDIR:

@@ -13,6 +13,9 @@
 namespace freestand::fragility {
 namespace {
 
+// Squares of larger numbers leave the range of exact sums.
+constexpr double largest = 1e12;
+
 bool sound(Outcome outcome) {
   return outcome == Outcome::at_rest || outcome == Outcome::moved || outcome == Outcome::overturned;
 }
@@ -46,7 +49,7 @@ void Tally::add(const Sample& sample) {
                 Exit::data);
   const auto group = static_cast<std::size_t>(groups_.group(sample.motion, sample.index));
   ++count_[static_cast<std::size_t>(sample.outcome)];
-  const int found = bin_index(options_.im_edge, sample.im, options_.open_ends);
+  const int found = std::abs(sample.im) < largest ? bin_index(options_.im_edge, sample.im, options_.open_ends) : -1;
   const auto bin = static_cast<std::size_t>(found);
   if (!sound(sample.outcome)) {
     if (found >= 0) ++count_[layout_.failed + bin];
@@ -62,7 +65,7 @@ void Tally::add(const Sample& sample) {
   sum_[layout_.im_sums + cell].add(sample.im);
   for (std::size_t a = 0; a < options_.axes.size(); ++a) {
     const int on_axis = bin_index(options_.axes[a].edge, sample.axis[a]);
-    if (on_axis < 0) continue;
+    if (on_axis < 0 || !(std::abs(sample.axis[a]) < largest)) continue;
     ++count_[layout_.axis_counts[a] + static_cast<std::size_t>(on_axis)];
     sum_[layout_.axis_sums[a] + static_cast<std::size_t>(on_axis)].add(sample.axis[a]);
   }
@@ -79,7 +82,8 @@ void Tally::add_edp(std::size_t e, const Place& place, const Sample& sample) {
   const bool over =
       fallen || (overturned && edp.binary);  // told apart from those that stand; else it goes by its value
   const double value = sample.edp[e];
-  if (!fallen && !std::isfinite(value)) {
+  const double unit = edp.binary ? 1 : capacity_[e].front();
+  if (!fallen && !(std::abs(value) < largest * unit)) {
     ++count_[layout_.missing + e];
     return;
   }

@@ -58,7 +58,8 @@ class Tally {
   // Throws Error listing everything that is wrong with the options.
   explicit Tally(Options options);
 
-  // Samples that failed numerically are counted by outcome and by bin, and enter nothing else. Overturned ones have no EDP, where it
+  // An intensity of 1e12 and more is outside, an EDP of 1e12 times its first capacity and more is not known. Samples that failed numerically are
+  // counted by outcome and by bin, and enter nothing else. Overturned ones have no EDP, where it
   // is censored, and count as above every capacity; others (did the connection break?) they have.
   void add(const Sample& sample);
 

@@ -26,6 +26,9 @@ static_assert(std::endian::native == std::endian::little, "block logs are little
 // Blocks begin at pages: ranks of one node never write into the same one, and after a gap the next is soon found.
 constexpr std::int64_t page = 4096;
 
+// 10^4 ranks that opened their log for every block would ask the server of names 10^4 times a second.
+constexpr std::chrono::seconds open_for{10};
+
 struct Header {
   std::array<char, 8> magic = {'F', 'S', 'B', 'L', 'O', 'C', 'K', 'S'};
   std::uint32_t format = 3;
@@ -200,14 +203,31 @@ void BlockLog::write(std::int64_t block, const BlockRows& rows) {
   if (!end_) end_.emplace(Communicator(), 1);
   const std::int64_t offset = end_->fetch_add(0, whole_pages(header.bytes()));
   const fs::path path = log(run_, end_->node());
-  OpenFile file(path, O_WRONLY | O_CREAT);
-  if (!file || !file.write(std::as_bytes(std::span(&header, 1)), offset) ||
-      !file.write(values, offset + static_cast<std::int64_t>(sizeof header)) || !file.close())
-    throw file_error("write", path, errno);
+  if (!open_) {
+    open_ = std::make_unique<OpenFile>(path, O_WRONLY | O_CREAT);
+    opened_ = std::chrono::steady_clock::now();
+  }
+  if (!*open_ || !open_->write(std::as_bytes(std::span(&header, 1)), offset) ||
+      !open_->write(values, offset + static_cast<std::int64_t>(sizeof header))) {
+    const int error_number = errno;
+    open_.reset();
+    throw file_error("write", path, error_number);
+  }
   written_.push_back({block, run_, end_->node(), offset});
+  if (std::chrono::steady_clock::now() - opened_ > open_for) close();
+}
+
+// A network file system tells only now what it could not write, and which blocks that concerns their checksums say.
+void BlockLog::close() {
+  if (!open_) return;
+  const bool closed = open_->close();
+  const int error_number = errno;
+  open_.reset();
+  if (!closed) throw file_error("write", log(run_, end_->node()), error_number);
 }
 
 void BlockLog::share(const Communicator& world) {
+  close();
   Words mine;
   for (const Place& place : std::exchange(written_, {}))
     mine.insert(mine.end(), {place.block, place.run, place.node, place.offset});

@@ -8,14 +8,17 @@
 // row.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <freestand/error.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/open_file.hpp"
 #include "parallel/communicator.hpp"
 #include "parallel/node_memory.hpp"
 #include "parallel/run_files.hpp"
@@ -61,7 +64,7 @@ class BlockLog {
   // is Exit::cure, a missing right Exit::usage.
   void write(std::int64_t block, const BlockRows& rows);
 
-  // From here on every rank can read what any has written. Collective.
+  // From here on every rank can read what any has written. Collective. Throws Error as write() does.
   void share(const Communicator&);
 
   // One block. Throws Error (Exit::data) if it is not there, damaged, or of another study.
@@ -75,6 +78,7 @@ class BlockLog {
     friend auto operator<=>(const Place&, const Place&) = default;
   };
   std::filesystem::path log(std::int64_t run, std::int64_t node) const;
+  void close();
   void look_into(const RunFile&);
   bool is_whole(const Place&) const;
   void keep_latest();
@@ -85,8 +89,10 @@ class BlockLog {
   std::int64_t run_ = 0;
   std::vector<Place> places_;  // one a block, ascending
   bool looked_ = false;
-  std::optional<RunFile> other_;   // a log that holds blocks of another study or kernel
-  std::vector<Place> written_;     // by this rank, not yet shared
+  std::optional<RunFile> other_;    // a log that holds blocks of another study or kernel
+  std::vector<Place> written_;      // by this rank, not yet shared
+  std::unique_ptr<OpenFile> open_;  // this node's log, for some seconds
+  std::chrono::steady_clock::time_point opened_ = {};
   std::optional<NodeMemory> end_;  // of this node's log, alone in it
 };
 

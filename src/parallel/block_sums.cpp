@@ -26,8 +26,9 @@ using Clock = std::chrono::steady_clock;
 constexpr const char* extension = "sums";
 constexpr std::int64_t bits = 64;
 // A node's file is written after a second, and again after as long as the run has lasted, but ten seconds at most: a kill costs no
-// more than half of the run, and no more than these; where writing takes long, after a hundred times as long.
-constexpr std::int64_t first_pause_ns = 1'000'000'000, longest_pause_ns = 10'000'000'000, pause_per_writing = 100;
+// more than half of the run, and no more than these; where writing takes long, after a hundred times as long, but a minute at most.
+constexpr std::int64_t first_pause_ns = 1'000'000'000, longest_pause_ns = 10'000'000'000, pause_per_writing = 100,
+                       longest_of_all_ns = 60'000'000'000;
 
 struct SumsHeader {
   std::array<char, 8> magic = {'F', 'S', 'S', 'U', 'M', 'S', '\0', '\0'};
@@ -193,8 +194,10 @@ std::int64_t BlockSums::end() const {
   return block;
 }
 
-void BlockSums::add(std::span<const std::int64_t> blocks, std::span<const std::int64_t> words) {
+double BlockSums::add(std::span<const std::int64_t> blocks, std::span<const std::int64_t> words) {
   Content due;
+  const std::int64_t came = now_ns();
+  double added = 0;
   {
     const NodeMemory::Lock lock(*memory_);
     const auto numbers = memory_->numbers();
@@ -202,7 +205,8 @@ void BlockSums::add(std::span<const std::int64_t> blocks, std::span<const std::i
       numbers[set + static_cast<std::size_t>(block / bits)] |= static_cast<std::int64_t>(1ULL << (block % bits));
     const auto sums = numbers.last(words_);
     for (std::size_t i = 0; i < words_; ++i) sums[i] += words[i];
-    if (numbers[writing] || now_ns() < numbers[next_writing]) return;
+    added = 1e-9 * static_cast<double>(now_ns() - came);
+    if (numbers[writing] || now_ns() < numbers[next_writing]) return added;
     numbers[writing] = 1;
     due = content();
   }
@@ -211,9 +215,10 @@ void BlockSums::add(std::span<const std::int64_t> blocks, std::span<const std::i
   const std::int64_t end = now_ns();
   const NodeMemory::Lock lock(*memory_);
   const auto numbers = memory_->numbers();
-  numbers[next_writing] =
-      end + std::max(std::min(end - numbers[began], longest_pause_ns), pause_per_writing * (end - start));
+  numbers[next_writing] = end + std::max(std::min(end - numbers[began], longest_pause_ns),
+                                         std::min(pause_per_writing * (end - start), longest_of_all_ns));
   numbers[writing] = 0;
+  return added;
 }
 
 BlockSums::Content BlockSums::content() {

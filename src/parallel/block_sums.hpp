@@ -39,9 +39,10 @@ class BlockSums {
   std::int64_t end() const;            // behind the last of those; 0 without any
 
   // Adds words that were counted over these blocks, none of which is in the sums. Where it is time, the calling rank writes
-  // the node's file too: about every ten seconds, and so seldom that it costs less than a hundredth. Throws Error: a full disk
+  // the node's file too: about every ten seconds, and so seldom that it costs less than a hundredth, but every minute. Throws Error: a full disk
   // is Exit::cure.
-  void add(std::span<const std::int64_t> blocks, std::span<const std::int64_t> words);
+  // Returns the seconds for which this rank waited for others and added.
+  double add(std::span<const std::int64_t> blocks, std::span<const std::int64_t> words);
 
   // Writes all nodes' files. Collective.
   void write(const Communicator&);

@@ -1,4 +1,4 @@
-// What a long run tells about itself: one line that is rewritten on a terminal, one plain line a minute elsewhere.
+// What a long run tells about itself: one line that is rewritten on a terminal, one plain line every ten seconds elsewhere.
 #pragma once
 
 #include <chrono>

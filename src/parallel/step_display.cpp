@@ -15,7 +15,7 @@ StepDisplay::~StepDisplay() {
 void StepDisplay::show(const std::string& what, std::size_t done, std::size_t total) {
   const auto now = Clock::now();
   const double since = std::chrono::duration<double>(now - last_).count();
-  if (quiet_ || since < (terminal_ ? 0.2 : 60)) return;
+  if (quiet_ || since < (terminal_ ? 0.2 : 10)) return;
   last_ = now;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   const std::string line = fmt::format("{}: {}/{}, {} so far", what, done, total, duration_text(elapsed));

@@ -1,4 +1,4 @@
-// What goes on in work that has steps: a line that is rewritten on a terminal, one plain line a minute elsewhere.
+// What goes on in work that has steps: a line that is rewritten on a terminal, one plain line every ten seconds elsewhere.
 #pragma once
 
 #include <chrono>

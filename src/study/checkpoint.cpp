@@ -11,8 +11,9 @@
 namespace freestand::study {
 namespace {
 
-// Counts of a few megabytes are added to those of the node in milliseconds: once a second.
-constexpr std::chrono::seconds pause_between_sums{1};
+// Counts of a few megabytes are added to those of the node in milliseconds: once a second. Where they are larger, or many ranks wait for each other,
+// so seldom that it takes less than a hundredth of the time, but every ten seconds.
+constexpr std::chrono::duration<double> shortest_pause{1}, longest_pause{10};
 
 // Of the numbers of a row and of what they mean.
 std::uint32_t kernel_of(const std::vector<Column>& columns) {
@@ -87,12 +88,13 @@ void Checkpoint::add(std::int64_t block, const Table& rows, bool alike) {
   if (counted_->waiting.empty()) counted_->since = std::chrono::steady_clock::now();
   counted_->counts.add(rows, block * layout_.block_size, alike);
   counted_->waiting.push_back(block);
-  if (std::chrono::steady_clock::now() - counted_->since >= pause_between_sums) add_to_sums();
+  if (std::chrono::steady_clock::now() - counted_->since >= counted_->pause) add_to_sums();
 }
 
 void Checkpoint::add_to_sums() {
   if (counted_->waiting.empty()) return;
-  counted_->sums.add(counted_->waiting, counted_->counts.take());
+  const std::chrono::duration<double> took(counted_->sums.add(counted_->waiting, counted_->counts.take()));
+  counted_->pause = std::clamp(100 * took, shortest_pause, longest_pause);
   counted_->waiting.clear();
 }
 

@@ -65,6 +65,7 @@ class Checkpoint {
     parallel::BlockSums sums;
     std::vector<std::int64_t> waiting = {};            // blocks that are counted, and not yet in the sums
     std::chrono::steady_clock::time_point since = {};  // when the first of them came
+    std::chrono::duration<double> pause{1};            // until they are added
   };
   bool has_rows(std::int64_t block) const;
   bool has_counts(std::int64_t block) const { return !counted_ || counted_->sums.has(block); }

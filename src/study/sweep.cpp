@@ -138,6 +138,7 @@ class Sweep {
     world_.on_root([&] {
       const SweepSize size = size_of(study_, target_, evaluator_);
       refuse_too_large(size, node);
+      if (size.kept < size.samples && !options_.quiet) parallel::tell(told(size) + "\n");
       if (const std::string room = room_told(size, folder_.path()); !room.empty())
         parallel::tell("doubtful: " + room + "\n");
     });

@@ -94,11 +94,13 @@ std::string told(const SweepSize& size) {
   const bool all = size.kept == size.samples;
   const double files = size.samples_bytes + (all ? 0 : size.counts_bytes);
   return fmt::format(
-      "{} samples, of which {} kept: at most {} in {}, and {} in fragility.h5 and its tables; while it runs {} more in "
-      "blocks/{}; {}",
+      "{} samples, of which {} kept: at most {} in {}, and {} in fragility.h5 and its tables, {} files in all; while "
+      "it runs {} more in "
+      "blocks/{}, two files for each node at most; {}",
       size.samples, all ? "all are" : fmt::format("the first {} are", size.kept), bytes_text(files),
-      all ? "samples.h5" : "samples.h5 and tally.h5", bytes_text(size.results_bytes), bytes_text(size.blocks_bytes),
-      all ? "" : fmt::format(" and {} for each node", bytes_text(size.counts_bytes)), memory);
+      all ? "samples.h5" : "samples.h5 and tally.h5", bytes_text(size.results_bytes), all ? 8 : 9,
+      bytes_text(size.blocks_bytes), all ? "" : fmt::format(" and {} for each node", bytes_text(size.counts_bytes)),
+      memory);
 }
 
 void refuse_too_large(const SweepSize& size, const parallel::NodeSize& node) {

@@ -23,6 +23,7 @@ from cluster import Cluster, find, why_not
 from support import FREESTAND, MPIEXEC, finished_blocks, result, slow_fit, study_text
 
 CURE, RESUMABLE = 74, 75
+ANSWERED_S = 10  # until all ranks have ended, on cores that have nothing else to do
 HUNG = "launcher hung"
 MOST_RANKS = 4
 PHASES = ("start", "compute", "write", "fit")
@@ -111,7 +112,10 @@ class Kills:
             if time.monotonic() > start + 60:
                 raise AssertionError(f"{place}: ranks {ranks_in(out)} are left behind")
             time.sleep(0.01)
-        self.longest = max(self.longest, time.monotonic() - start)
+        seconds = time.monotonic() - start
+        self.longest = max(self.longest, seconds)
+        if self.what == "stop" and seconds > ANSWERED_S:
+            raise AssertionError(f"{place}: a request to stop was answered after {seconds:.1f} s")
         code, error = self.end_of(process)
         if self.what == "stop" and code not in (0, CURE, RESUMABLE, HUNG):
             raise AssertionError(f"{place}: a request to stop is answered by {code}: {error[-1500:]}")

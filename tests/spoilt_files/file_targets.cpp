@@ -6,7 +6,9 @@
 
 #include "base/lab_table.hpp"
 #include "decision/hazard.hpp"
+#include "fragility/tally.hpp"
 #include "io/database_file.hpp"
+#include "io/folder_lock.hpp"
 #include "io/fragility_file.hpp"
 #include "io/samples_file.hpp"
 #include "io/tally_file.hpp"
@@ -103,6 +105,51 @@ void samples_file(std::string_view bytes) {
   });
 }
 
+// Samples with whatever numbers: of eight bytes each an intensity, a slip and a friction, and a byte each that names a motion and an outcome.
+void tallied_rows(std::string_view bytes) {
+  fragility::Options options;
+  options.im_name = "report";
+  options.im_edge = {-0.5, 1, 2, 4};
+  options.open_ends = true;
+  options.edps = {{"peak_slip_m", "m", "", false, 0, {1e-3, 0.5}}, {"overturned", "1", "", true, 0, {}}};
+  options.axes = {{"friction_mu_k", "1", {0.1, 0.3, 1e300}}};
+  options.motion_group = {0, 1, -1};
+  fragility::Tally tally(options);
+  constexpr std::size_t row = 3 * sizeof(double) + 2;
+  for (; bytes.size() >= row; bytes.remove_prefix(row)) {
+    double number[3];
+    std::memcpy(number, bytes.data(), sizeof number);
+    const auto motion = static_cast<unsigned char>(bytes[row - 2]) % 3U,
+               outcome = static_cast<unsigned char>(bytes[row - 1]) % 6U;
+    const double edp[] = {number[1], outcome == static_cast<unsigned>(Outcome::overturned) ? 1.0 : 0.0};
+    tally.add({static_cast<std::uint64_t>(tally.samples()), number[0], static_cast<int>(motion),
+               static_cast<Outcome>(outcome), edp, std::span(&number[2], 1)});
+  }
+  const auto within = [&](double sum, double most) {
+    expect(std::abs(sum) <= most * static_cast<double>(tally.samples()), "a sum that samples cannot have");
+  };
+  constexpr double largest = 1e12, largest_ln = 750;
+  for (std::size_t bin = 0; bin + 1 < options.im_edge.size(); ++bin)
+    for (std::size_t group = 0; group < tally.layout().groups; ++group) {
+      const fragility::Counts counts = tally.counts(0, bin, group);
+      expect(counts.n == counts.still + counts.over + counts.moved, "samples that are nowhere");
+      for (const double sum : {counts.sum_ln, counts.sum_ln_im}) within(sum, largest_ln);
+      for (const double sum : {counts.sum_ln2, counts.sum_ln_im2, counts.sum_ln_times_ln_im})
+        within(sum, largest_ln * largest_ln);
+    }
+  const fragility::RegressionSums line = tally.regression(0);
+  for (const double sum : {line.x, line.y}) within(sum, largest);
+  for (const double sum : {line.xx, line.xy, line.yy}) within(sum, largest * largest);
+  for (std::size_t cell = 0; cell < tally.layout().im_cell_count(); ++cell) within(tally.im_cell(cell).im_sum, largest);
+}
+
+// Whoever finds a lock that tells nothing waits, here a millisecond, and takes it over.
+void lock(std::string_view bytes) {
+  const std::filesystem::path file = written(bytes, io::lock_name);
+  refuses_or_reads([&] { io::FolderLock(file.parent_path(), {.silence_s = 1e-3}); });
+  std::filesystem::remove(file);
+}
+
 // Read, and not fitted, which takes seconds.
 void peaks(std::string_view bytes) {
   const Jobs none = [](const std::string&, std::size_t, const Job&) -> std::vector<std::vector<double>> {
@@ -160,6 +207,8 @@ std::vector<Target> file_targets() {
       {"tally_file", tally_file},
       {"database_file", database_file},
       {"samples_file", samples_file},
+      {"tallied_rows", tallied_rows},
+      {"lock", lock},
       {"peaks", peaks},
       {"block_log", block_log},
       {"block_sums", block_sums},
