@@ -3,7 +3,7 @@
 //   FAULT_FOLDER   only files below it count
 //   FAULT_NAME     only calls of this name count: write, rename, ...; all where it is not there
 //   FAULT_CALL     which of the calls, from 1
-//   FAULT_KIND     enospc, edquot, erofs, eio, eintr: the call fails with that error; short: a write does half; renamed: a rename is done
+//   FAULT_KIND     enospc, edquot, erofs, eio, estale, etimedout, eintr: the call fails with that error (a close is done all the same); short: a write does half; renamed: a rename is done
 //                  and tells ENOENT, as one that a network file system has sent twice; killed: the process dies
 //                  before the call; torn: it dies when half of a write is done; lost: it dies before the call, and with it the
 //                  machine: of what was not synced each write, new name and rename is kept, gone or spoilt (unsynced.hpp);
@@ -33,7 +33,22 @@
 
 namespace {
 
-enum class Kind { none, enospc, edquot, erofs, eio, eintr, short_write, renamed, killed, torn, lost, listed };
+enum class Kind {
+  none,
+  enospc,
+  edquot,
+  erofs,
+  eio,
+  estale,
+  etimedout,
+  eintr,
+  short_write,
+  renamed,
+  killed,
+  torn,
+  lost,
+  listed
+};
 
 const char* setting(const char* name) {
   const char* text = std::getenv(name);
@@ -43,7 +58,8 @@ const char* setting(const char* name) {
 Kind kind_in_environment() {
   const char* rank = std::getenv("FAULT_RANK");
   if (rank && std::strcmp(rank, setting("OMPI_COMM_WORLD_RANK")) != 0) return Kind::none;
-  constexpr const char* names[] = {"none", "enospc", "edquot", "erofs", "eio", "eintr", "short", "renamed", "killed", "torn", "lost", "listed"};
+  constexpr const char* names[] = {"none",  "enospc", "edquot",  "erofs",  "eio",  "estale", "etimedout",
+                                   "eintr", "short",  "renamed", "killed", "torn", "lost",   "listed"};
   for (std::size_t i = 1; i < std::size(names); ++i)
     if (std::strcmp(setting("FAULT_KIND"), names[i]) == 0) return static_cast<Kind>(i);
   return Kind::none;
@@ -120,6 +136,10 @@ bool fails_at_once(Kind kind, bool may_be_interrupted) {
       return with(EROFS);
     case Kind::eio:
       return with(EIO);
+    case Kind::estale:
+      return with(ESTALE);
+    case Kind::etimedout:
+      return with(ETIMEDOUT);
     case Kind::eintr:
       return may_be_interrupted && with(EINTR);
     default:
@@ -243,6 +263,15 @@ int ftruncate(int descriptor, off_t size) {
   return done(__func__, descriptor, true, [&] { return real(descriptor, size); });
 }
 int ftruncate64(int descriptor, off64_t size) { return ftruncate(descriptor, size); }
+
+// A network file system may tell here what it could not write.
+int close(int descriptor) {
+  static const auto real = next<int (*)(int)>("close");
+  const int flags = ::fcntl(descriptor, F_GETFL);
+  const Kind kind = flags >= 0 && (flags & O_ACCMODE) != O_RDONLY ? fault(__func__, descriptor) : Kind::none;
+  const int result = real(descriptor);
+  return fails_at_once(kind, false) ? -1 : result;
+}
 
 int rename(const char* from, const char* to) {
   static const auto real = next<int (*)(const char*, const char*)>("rename");

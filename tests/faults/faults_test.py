@@ -27,13 +27,15 @@ LEFT = ["bins.csv", "fragility.h5", "freestand.files", "ranking.csv", "samples.h
 NOTES = ["freestand.lock", "freestand.begun", "blocks"]  # where one cannot be removed, all is done, and the next run removes it
 # What may come of it. A call that did a part, or tells an error though it is done, is no reason to end; one that was
 # interrupted only within a library, and then going on helps; MPI's files do not tell which error it was.
-ALLOWED = {"enospc": {0, CURE}, "edquot": {0, CURE}, "erofs": {0, CURE}, "eio": {0, CURE}, "eintr": {0, RESUMABLE}, "short": {0}, "renamed": {0},
+ALLOWED = {"enospc": {0, CURE}, "edquot": {0, CURE}, "erofs": {0, CURE}, "eio": {0, CURE},
+           "estale": {0, RESUMABLE}, "etimedout": {0, RESUMABLE}, "eintr": {0, RESUMABLE}, "short": {0}, "renamed": {0},
            "killed": None, "torn": None, "lost": None}
-LASTING = ("enospc", "edquot", "erofs", "eio")
+LASTING = ("enospc", "edquot", "erofs", "eio", "estale")
 KINDS = [(kind, False) for kind in ALLOWED] + [(kind, True) for kind in LASTING]
+FILE_SERVER = ("write", "pwrite", "open", "fsync", "close", "rename")  # what waits for one
 WRITES = ("write", "pwrite", "writev", "pwritev")
-ONLY = {"edquot": ("write", "pwrite"), "erofs": ("open", "rename"), "short": WRITES, "torn": WRITES, "renamed": ("rename",),
-        "eintr": WRITES + ("open", "fsync", "ftruncate")}  # others do what they do anyway
+ONLY = {"edquot": ("write", "pwrite", "close"), "estale": FILE_SERVER, "etimedout": FILE_SERVER, "erofs": ("open", "rename"), "short": WRITES,
+        "torn": WRITES, "renamed": ("rename",), "eintr": WRITES + ("open", "fsync", "ftruncate")}  # others do what they do anyway
 
 
 def small_study(keep):
