@@ -42,10 +42,11 @@ std::int64_t size_by_time(const Study& study, const Evaluator& evaluator, double
   while (size % 2 == 0 && size / 2 >= least && few_enough_blocks(study, size / 2) && block_takes_s() > block_s)
     size /= 2;
   if (block_takes_s() > patience_s && samples > size)
-    parallel::tell(fmt::format(
-        "doubtful: a block of {} samples takes some {:.2g} s (of {} samples there are no smaller ones), as much of "
-        "each rank a request to stop may lose: ask for time limits of many blocks\n",
-        size, block_takes_s(), samples));
+    parallel::tell(
+        fmt::format("doubtful: a block of {} samples takes some {:.2g} s, and no smaller one is made: as much of its "
+                    "time a rank may lose at "
+                    "a request to stop; ask for limits of many times that\n",
+                    size, block_takes_s()));
   return size;
 }
 
