@@ -233,6 +233,11 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
         "the tests are fitted best as if {}: measure that again, or let diagnose look for an effect that does as much; "
         "intervals, draws and bands allow for it",
         open.stated_otherwise));
+  if (open.leaves_too_much && !open.draws.empty())
+    c.findings.push_back(
+        "the model leaves more of the tests than noise does: its intervals and draws do not tell by how much its "
+        "numbers "
+        "are off, nor do sweeps that take them (fitted.yaml): let diagnose look for what it lacks first");
   if (const std::string unread = unread_floors(bench, c.tests); !unread.empty()) c.findings.push_back(unread);
   if (const std::string level = level_tests(*p); !level.empty()) c.findings.push_back(level);
   if (fit.evaluations == 0 && !open.better.empty()) c.findings.push_back(better_numbers(fit, open.better));

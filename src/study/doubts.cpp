@@ -257,7 +257,11 @@ std::string moved_sideways_alone(const Study& study, const MotionSet& motions) {
 
 }  // namespace
 
-std::vector<std::string> doubts(const Study& study) { return doubts_of_numbers(study, false); }
+std::vector<std::string> doubts(const Study& study) {
+  std::vector<std::string> said = doubts_of_numbers(study, false);
+  said.insert(said.end(), study.doubtful_draws.begin(), study.doubtful_draws.end());
+  return said;
+}
 
 std::vector<std::string> doubts_of_records(const Study& study, const MotionSet& motions) {
   std::vector<std::string> said;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <freestand/error.hpp>
+#include <fstream>
 #include <map>
 #include <optional>
 
@@ -13,9 +14,21 @@
 namespace freestand::study {
 namespace {
 
+// Stands in a table whose model lacks something.
+constexpr const char* lacking = "# Their model leaves more of the tests than noise does.";
+
+bool is_of_a_model_that_lacks(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line) && line.starts_with('#');)
+    if (line.starts_with(lacking)) return true;
+  return false;
+}
+
 class Tables {
  public:
   Tables(std::filesystem::path folder, Problems& problems) : folder_(std::move(folder)), problems_(problems) {}
+
+  const std::vector<std::string>& doubtful() const { return doubtful_; }
 
   void fill(YAML::Node node, int line) {
     if (node.IsSequence()) {
@@ -61,6 +74,12 @@ class Tables {
     std::optional<CsvTable>& table = tables_[name];
     try {
       table = read_csv_table(folder_ / name);
+      if (is_of_a_model_that_lacks(folder_ / name))
+        doubtful_.push_back(
+            fmt::format("{} holds draws of a model that leaves more of its tests than noise does (by how much its "
+                        "numbers are off, they do not tell): "
+                        "let diagnose look for what it lacks",
+                        (folder_ / name).string()));
     } catch (const Error& error) {
       problems_.add(line, fmt::format("the table of joint draws cannot be read ({}): give its path from the study's "
                                       "folder, or take the best values with --best",
@@ -72,12 +91,16 @@ class Tables {
   std::filesystem::path folder_;
   Problems& problems_;
   std::map<std::string, std::optional<CsvTable>> tables_;
+  std::vector<std::string> doubtful_;
 };
 
 }  // namespace
 
-void read_posterior_tables(YAML::Node root, const std::filesystem::path& folder, Problems& problems) {
-  Tables(folder, problems).fill(root, line_of(root));
+std::vector<std::string> read_posterior_tables(YAML::Node root, const std::filesystem::path& folder,
+                                               Problems& problems) {
+  Tables tables(folder, problems);
+  tables.fill(root, line_of(root));
+  return tables.doubtful();
 }
 
 std::string posterior_text(const measurement::ModelSpec& model, const measurement::Posterior& posterior) {
@@ -88,6 +111,7 @@ std::string posterior_text(const measurement::ModelSpec& model, const measuremen
                       ? fmt::format("; friction is that of another test (it differs by {:.2g} % from test to test)",
                                     100 * posterior.friction_scatter)
                       : "");
+  if (posterior.leaves_too_much) text += std::string(lacking) + "\n";
   for (std::size_t k = 0; k < model.free.size(); ++k) text += (k ? "," : "") + model.free[k].name;
   for (const measurement::Values& row : posterior.draws) {
     text += "\n";

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "measurement/fit/posterior.hpp"
 #include "study/problems.hpp"
@@ -19,8 +20,9 @@ inline std::vector<std::filesystem::path> files_of_study(const std::filesystem::
   return {study, study.parent_path() / posterior_table};
 }
 
-// Puts `values` into every such mapping below `root` that has none. Tables lie in `folder`, where the study does.
-void read_posterior_tables(YAML::Node root, const std::filesystem::path& folder, Problems&);
+// Puts `values` into every such mapping below `root` that has none. Tables lie in `folder`, where the study does. What is doubtful of them, a sentence
+// for each table.
+std::vector<std::string> read_posterior_tables(YAML::Node root, const std::filesystem::path& folder, Problems&);
 
 // The text of a table. Empty where there are no draws.
 std::string posterior_text(const measurement::ModelSpec&, const measurement::Posterior&);

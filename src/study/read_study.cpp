@@ -211,7 +211,7 @@ Study read_sweep(const YAML::Node& root, const std::filesystem::path& path, cons
                  Problems& problems, int line, FittedAs fitted) {
   Study study;
   sweep_model(root, problems, fitted);
-  read_posterior_tables(root, path.parent_path(), problems);
+  study.doubtful_draws = read_posterior_tables(root, path.parent_path(), problems);
   Section file(root, "", line, problems);
   problems.throw_if_any();
   refuse_other_kind(

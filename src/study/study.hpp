@@ -294,6 +294,9 @@ struct Study {
   std::vector<MotionSource> motions;
   FragilityPart fragility;
 
+  // Of the tables of joint draws that it takes numbers from: what is doubtful, in sentences.
+  std::vector<std::string> doubtful_draws = {};
+
   // Of no study file: parameters that take other draws than the study's, with all others as they are.
   std::vector<std::string> redrawn = {};
 

@@ -168,7 +168,9 @@ TEST(Posterior, OfAModelThatMissesAllIsAsStated) {
   Dataset data = test::made_dataset(test::cabinet("static_friction", {1.4}));
   const auto draws = [&] {
     const Bench bench(data, 0);
-    return posterior(bench, test::fitted(bench, test::free_friction(), {0.2}), run_here).draws;
+    const Posterior p = posterior(bench, test::fitted(bench, test::free_friction(), {0.2}), run_here);
+    EXPECT_TRUE(p.leaves_too_much);
+    return p.draws;
   };
   const std::vector<Values> within_tolerances = draws();
   data.tolerance = {.width = 0, .centre_height = 0, .floor_gain = 0, .clock_s = 0};
@@ -183,6 +185,7 @@ TEST(Posterior, WrongNumbersAreNotLaidOnTheLaboratory) {
   const Posterior of_fit = posterior(bench, fit, run_here);
   EXPECT_EQ(of_fit.stated_otherwise.rfind("the floor's accelerometer reads ", 0), 0u) << of_fit.stated_otherwise;
   EXPECT_TRUE(of_fit.better.empty());
+  EXPECT_FALSE(of_fit.leaves_too_much);
   ModelFit given = fit;
   given.x = {0.17};
   EXPECT_FALSE(posterior(bench, given, run_here).better.empty());

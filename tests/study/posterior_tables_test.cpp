@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 
+#include "study/doubts.hpp"
 #include "study/evaluator.hpp"
 #include "study/known.hpp"
 #include "study/realise.hpp"
@@ -54,6 +56,20 @@ TEST_F(PosteriorTables, ARowStaysTogetherAndAllAreAlikeLikely) {
     ++count[mu];
   }
   for (const auto& [mu, n] : count) EXPECT_NEAR(n, 1000, 5) << mu;  // a Sobol sequence
+}
+
+TEST_F(PosteriorTables, DrawsOfAModelThatLacksSomethingAreDoubtful) {
+  EXPECT_TRUE(read(drawn()).doubtful_draws.empty());
+  measurement::ModelSpec model;
+  model.free = {{.name = "friction.mu"}};
+  measurement::Posterior open{.draws = {{0.2}, {0.3}}};
+  open.leaves_too_much = true;
+  std::ofstream(folder_ / "draws.csv") << posterior_text(model, open);
+  const Study study = read(text("{posterior: draws.csv, column: friction.mu}", "0.01"));
+  ASSERT_EQ(study.doubtful_draws.size(), 1u);
+  EXPECT_NE(study.doubtful_draws[0].find("draws.csv holds draws of a model that leaves more"), std::string::npos);
+  const std::vector<std::string> all = doubts(study);
+  EXPECT_EQ(std::count(all.begin(), all.end(), study.doubtful_draws[0]), 1);
 }
 
 // Numbers of one row are dependent: no one of them is an input, the table is, and its rows that differ are its classes.

@@ -27,15 +27,16 @@ HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs
     const double before = dispersion_.s;
     const Judge scattered = tau2_ > 0 ? Judge(bench, fit.model, fit.x, jobs, fanned_out, friction_scatter()) : judge_;
     const AsStated place = as_stated(bench, scattered, fit, jobs, {}, weight());
-    look_from(leaves_too_much(place) ? AsStated{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}} : place,
-              jobs);
+    leaves_too_much_ = is_too_much(place.misfit);
+    look_from(leaves_too_much_ ? AsStated{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}} : place, jobs);
     if (dispersion_.s > much_less * before) break;
   }
   reduce();
+  if (place_.names.empty() && !leaves_too_much_) leaves_too_much_ = is_too_much((*this)(fit.x));
 }
 
-bool HistoryMisfit::leaves_too_much(const AsStated& place) const {
-  return !(place.misfit < adequate * adequate * total(judge_.samples()));
+bool HistoryMisfit::is_too_much(double misfit) const {
+  return !(misfit < adequate * adequate * total(judge_.samples()));
 }
 
 // Of the squares of the deviations beside G: s^2, but no sensor is better than it is heard to be.

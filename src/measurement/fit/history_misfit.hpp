@@ -32,6 +32,9 @@ class HistoryMisfit {
   // the model leaves more than a model may.
   std::string stated_otherwise() const;
 
+  // The model leaves more than a model may, however what is stated is off within its tolerances.
+  bool leaves_too_much() const { return leaves_too_much_; }
+
   // The model in which what is stated is free behind the numbers of the fit; and as it may be where these are so, in the s-th draw.
   const ModelSpec& in_laboratory() const { return place_.model; }
   Values stated_beside(const Values& numbers, std::uint64_t s) const;
@@ -58,7 +61,7 @@ class HistoryMisfit {
   Likeliest likeliest_beside(const Values& numbers) const;
 
   void look_from(const AsStated&, const Jobs&);
-  bool leaves_too_much(const AsStated&) const;
+  bool is_too_much(double misfit) const;
   double weight() const;
   void reduce();
   std::vector<double> beyond_chance() const;                  // deviations of what is off by more than chance, else 0
@@ -73,6 +76,7 @@ class HistoryMisfit {
   std::vector<Pull> pulls_;
   double tau2_ = 0, friction_freedom_ = 1;
   Dispersion dispersion_;
+  bool leaves_too_much_ = false;
   double fall_as_stated_ = 0;  // of G, from the fit by its numbers alone, all being as stated
   Eigen::MatrixXd rates_;
   Eigen::VectorXd against_, errors_;           // errors_: standard errors of the deviations

@@ -49,6 +49,7 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
   out.dispersion = found.s;
   out.freedom = found.freedom;
   out.stated_otherwise = misfit.stated_otherwise();
+  out.leaves_too_much = misfit.leaves_too_much();
   const Misfits misfits = [&](const std::vector<Values>& points) {
     const auto answers =
         jobs("draws of the numbers", points.size(), [&](std::size_t s) { return Values{misfit(points[s])}; });

@@ -57,6 +57,8 @@ struct Posterior {
   // "the width is 1.2 % smaller than stated": what is off by more than its tolerance and by more than chance; empty: nothing is, or the model
   // leaves too much to tell.
   std::string stated_otherwise = {};
+  // Histories: the model leaves more than noise and all that is stated allow; by how much its numbers are off the draws do not tell.
+  bool leaves_too_much = false;
   Values better = {};  // numbers that fit the tests better than the fit does, beyond chance; empty: none were met
   // Share of the points that count: (sum w)^2/(n sum w^2). 0: G is so rough that too few do, and the draws are those of derivatives at the fit.
   double counted = 1;
