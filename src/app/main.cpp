@@ -89,12 +89,15 @@ int main(int argc, char** argv) {
                                                                "stopped on request (nothing is kept): start again\n");
                                                   std::_Exit(static_cast<int>(freestand::Exit::resumable));
                                                 }});
+  int code = 0;
   try {
     const freestand::parallel::Session session(&argc, &argv);
     speaks = session.world().is_root();
-    return run(argc, argv, session.world());
+    code = run(argc, argv, session.world());
   } catch (const freestand::Error& error) {  // MPI does not start
     fmt::print(stderr, "{}\n", freestand::printable(error.what(), freestand::Lines::keep));
-    return static_cast<int>(error.exit());
+    code = static_cast<int>(error.exit());
   }
+  freestand::parallel::request_stop();  // a request that comes while the process ends changes nothing: its work is done
+  return code;
 }

@@ -42,6 +42,16 @@ def ranks_in(folder):
     return sorted(found)
 
 
+def heeds_requests(process):
+    """Is it in its main program? Before, a signal ends it as the system does, whatever the program."""
+    try:
+        status = pathlib.Path(f"/proc/{process}/status").read_text()
+    except OSError:
+        return False
+    mask = sum(int(line.split()[1], 16) for line in status.splitlines() if line.startswith(("SigCgt", "SigIgn")))
+    return bool(mask & (1 << (signal.SIGUSR1 - 1)))
+
+
 def phase(folder):
     if (folder / "samples.h5").exists():
         return "fit"
@@ -100,6 +110,9 @@ class Kills:
         except subprocess.TimeoutExpired:
             pass
         ranks, place = ranks_in(out), phase(out)
+        while self.what == "stop" and ranks and not all(map(heeds_requests, ranks)):
+            time.sleep(0.002)
+            ranks, place = ranks_in(out), phase(out)
         if not ranks:
             return None
         start, answers = time.monotonic(), {0, CURE, RESUMABLE, HUNG}
