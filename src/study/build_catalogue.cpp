@@ -45,7 +45,6 @@ constexpr std::uint64_t many_samples = 100000;
 
 enum Work : std::int64_t { keep, refit, sweep_anew };
 
-
 // A fingerprint: of the study, of the contents of its records, and the other intensities.
 constexpr std::size_t study_digits = 16, motion_digits = 16;
 std::string of_motions(const std::string& fingerprint) { return fingerprint.substr(study_digits, motion_digits); }

@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <freestand/error.hpp>
+#include <span>
+#include <vector>
+
+#include "parallel/run_files.hpp"
 
 namespace freestand::study {
 namespace {
@@ -13,16 +16,15 @@ namespace {
 // Of the bits that functions of the mathematical library give at many places between 0 and 1. Where a processor or another version of the library
 // gives other last bits, it is at one place in a thousand.
 std::uint32_t bits_of_functions() {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto add = [&](double value) { hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL; };
+  std::vector<double> values;
   constexpr int places = 8192;
   for (int i = 0; i < places; ++i) {
     const double x = (i + 0.5) / places, y = std::fmod(i * 0.61803398874989485, 1.0);
-    for (const double value :
-         {std::exp(3 * x), std::expm1(x), std::log(x), std::log1p(x), std::pow(x, y), std::sin(7 * x), std::cos(7 * x),
-          std::tan(x), std::atan(x), std::atan2(x, y), std::hypot(x, y), std::erfc(x), std::exp2(x), std::tanh(x)})
-      add(value);
+    values.insert(values.end(), {std::exp(3 * x), std::expm1(x), std::log(x), std::log1p(x), std::pow(x, y),
+                                 std::sin(7 * x), std::cos(7 * x), std::tan(x), std::atan(x), std::atan2(x, y),
+                                 std::hypot(x, y), std::erfc(x), std::exp2(x), std::tanh(x)});
   }
+  const std::uint64_t hash = parallel::fnv1a(std::as_bytes(std::span(values)));
   return static_cast<std::uint32_t>(hash ^ (hash >> 32));
 }
 
