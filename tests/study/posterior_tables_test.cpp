@@ -62,7 +62,8 @@ TEST_F(PosteriorTables, DrawsOfAModelThatLacksSomethingAreDoubtful) {
   EXPECT_TRUE(read(drawn()).doubtful_draws.empty());
   measurement::ModelSpec model;
   model.free = {{.name = "friction.mu"}};
-  measurement::Posterior open{.draws = {{0.2}, {0.3}}};
+  measurement::Posterior open;
+  open.draws = {{0.2}, {0.3}};
   open.leaves_too_much = true;
   std::ofstream(folder_ / "draws.csv") << posterior_text(model, open);
   const Study study = read(text("{posterior: draws.csv, column: friction.mu}", "0.01"));
