@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <functional>
+#include <limits>
 #include <span>
 #include <system_error>
 
@@ -67,12 +68,14 @@ std::optional<Header> header_at(const OpenFile& file, std::int64_t offset, std::
   return header;
 }
 
-// Calls found(header, offset) for each block of a log; for none where it cannot be read.
-void for_each_header(const fs::path& path, const std::function<void(const Header&, std::int64_t)>& found) {
+// Calls found(header, offset) for each block that begins at `from` or behind it, before `to`, pages both; for none where the log cannot be
+// read. In the middle of a block there is no header, so that it is stepped over page by page.
+void for_each_header(const fs::path& path, std::int64_t from, std::int64_t to,
+                     const std::function<void(const Header&, std::int64_t)>& found) {
   const OpenFile file(path, O_RDONLY);
   if (!file) return;
   const std::int64_t size = file.size();
-  for (std::int64_t offset = 0; offset < size;) {
+  for (std::int64_t offset = from; offset < std::min(to, size);) {
     const auto header = header_at(file, offset, size);
     if (header) found(*header, offset);
     offset += header ? whole_pages(header->bytes()) : page;
@@ -81,8 +84,8 @@ void for_each_header(const fs::path& path, const std::function<void(const Header
 
 }  // namespace
 
-BlockLog::BlockLog(fs::path folder, std::string fingerprint, std::uint32_t kernel)
-    : folder_(std::move(folder)), fingerprint_(std::move(fingerprint)), kernel_(kernel) {
+BlockLog::BlockLog(fs::path folder, std::string fingerprint, std::uint32_t kernel, std::int64_t part)
+    : folder_(std::move(folder)), fingerprint_(std::move(fingerprint)), kernel_(kernel), part_(whole_pages(part)) {
   if (fingerprint_.empty() || fingerprint_.size() > sizeof(Header::fingerprint))
     throw Error(
         fmt::format("study fingerprint \"{}\" cannot be stored (1 to 64 characters): shorten it", fingerprint_));
@@ -92,19 +95,21 @@ BlockLog::BlockLog(fs::path folder, std::string fingerprint, std::uint32_t kerne
 fs::path BlockLog::log(std::int64_t run, std::int64_t node) const { return run_file(folder_, run, node, "log"); }
 
 void BlockLog::look(const Communicator& world) {
-  Words logs;  // run and node of each: all ranks share what the root sees
+  Words parts;  // run, node and first byte of each: all ranks share what the root sees
   if (world.is_root())
-    for (const RunFile& log : run_files(folder_, "log")) logs.insert(logs.end(), {log.run, log.node});
-  logs = world.broadcast(std::move(logs));
+    for (const RunFile& log : run_files(folder_, "log"))
+      for (std::int64_t from = 0, size = OpenFile(log.path, O_RDONLY).size(); from == 0 || from < size; from += part_)
+        parts.insert(parts.end(), {log.run, log.node, from});
+  parts = world.broadcast(std::move(parts));
   run_ = 0;
   places_.clear();
-  Words mine{-1};  // a log of another study or kernel, then all places
-  for (std::size_t i = 0; 2 * i < logs.size(); ++i) {
-    const RunFile file{logs[2 * i], logs[2 * i + 1], log(logs[2 * i], logs[2 * i + 1])};
+  Words mine{-1};  // a part of a log of another study or kernel, then all places
+  for (std::size_t i = 0; 3 * i < parts.size(); ++i) {
+    const RunFile file{parts[3 * i], parts[3 * i + 1], log(parts[3 * i], parts[3 * i + 1])};
     run_ = std::max(run_, file.run);
     if (static_cast<int>(i % static_cast<std::size_t>(world.size())) != world.rank()) continue;
     try {
-      look_into(file);
+      look_into(file, parts[3 * i + 2], parts[3 * i + 2] + part_);
     } catch (const Error&) {
       mine[0] = static_cast<std::int64_t>(i);
     }
@@ -114,8 +119,8 @@ void BlockLog::look(const Communicator& world) {
   other_.reset();
   for (const Words& one : world.gather(mine)) {
     if (one[0] >= 0) {
-      const auto log_of_other = static_cast<std::size_t>(2 * one[0]);
-      other_ = {logs[log_of_other], logs[log_of_other + 1], log(logs[log_of_other], logs[log_of_other + 1])};
+      const auto other = static_cast<std::size_t>(3 * one[0]);
+      other_ = {parts[other], parts[other + 1], log(parts[other], parts[other + 1])};
     }
     for (std::size_t i = 1; i < one.size(); i += 4) places_.push_back({one[i], one[i + 1], one[i + 2], one[i + 3]});
   }
@@ -126,11 +131,11 @@ void BlockLog::look(const Communicator& world) {
 void BlockLog::find() {
   if (!looked_) look(Communicator());
   looked_ = false;
-  if (other_) look_into(*other_);
+  if (other_) look_into(*other_, 0, std::numeric_limits<std::int64_t>::max());
 }
 
-void BlockLog::look_into(const RunFile& log) {
-  for_each_header(log.path, [&](const Header& header, std::int64_t offset) {
+void BlockLog::look_into(const RunFile& log, std::int64_t from, std::int64_t to) {
+  for_each_header(log.path, from, to, [&](const Header& header, std::int64_t offset) {
     if (const std::string other = text_of(header.fingerprint); other != fingerprint_)
       throw OtherBlocks(
           fmt::format("{} holds samples of another study (its fingerprint is {}, this study's is {}): resume with "
@@ -264,7 +269,8 @@ BlockRows BlockLog::read(std::int64_t block) const {
 std::int64_t count_blocks(const fs::path& folder) {
   std::int64_t count = 0;
   for (const RunFile& log : run_files(folder, "log"))
-    for_each_header(log.path, [&](const Header&, std::int64_t) { ++count; });
+    for_each_header(log.path, 0, std::numeric_limits<std::int64_t>::max(),
+                    [&](const Header&, std::int64_t) { ++count; });
   return count;
 }
 

@@ -46,10 +46,13 @@ class OtherBlocks : public Error {
 class BlockLog {
  public:
   // folder: made if it is not there (parents too). fingerprint: of all in the study that determines the numbers, at most
-  // 64 characters. kernel: of what in the program does. Throws Error if the folder cannot be made or the fingerprint is too long or empty.
-  BlockLog(std::filesystem::path folder, std::string fingerprint, std::uint32_t kernel = 0);
+  // 64 characters. kernel: of what in the program does. part: of a log that one rank looks through [B]; by default, of a node that has
+  // written terabytes, some thousand parts. Throws Error if the folder cannot be made or the fingerprint is too long or empty.
+  BlockLog(std::filesystem::path folder, std::string fingerprint, std::uint32_t kernel = 0,
+           std::int64_t part = std::int64_t{1} << 28);
 
-  // Looks where blocks lie, each rank in its part of the logs. Collective.
+  // Looks where blocks lie, each rank in its parts of the logs. There is no index, which a log that was torn would not have: headers are
+  // found from any place of it. Collective.
   void look(const Communicator&);
 
   // Takes what was seen for this study's, on the root, which looks alone where not all have looked. A block of another study
@@ -79,13 +82,14 @@ class BlockLog {
   };
   std::filesystem::path log(std::int64_t run, std::int64_t node) const;
   void close();
-  void look_into(const RunFile&);
+  void look_into(const RunFile&, std::int64_t from, std::int64_t to);  // bytes
   bool is_whole(const Place&) const;
   void keep_latest();
 
   std::filesystem::path folder_;
   std::string fingerprint_;
   std::uint32_t kernel_;
+  std::int64_t part_;
   std::int64_t run_ = 0;
   std::vector<Place> places_;  // one a block, ascending
   bool looked_ = false;

@@ -6,7 +6,8 @@
 //   FAULT_KIND     enospc, edquot, erofs, eio, estale, etimedout, eintr: the call fails with that error (a close is done all the same); short: a write does half; renamed: a rename is done
 //                  and tells ENOENT, as one that a network file system has sent twice; killed: the process dies
 //                  before the call; torn: it dies when half of a write is done; lost: it dies before the call, and with it the
-//                  machine: of what was not synced each write, new name and rename is kept, gone or spoilt (unsynced.hpp);
+//                  machine: of what was not synced each write, new name and rename is kept, gone or spoilt (unsynced.hpp), and the
+//                  other ranks die before their next call, with what they have not synced;
 //                  listed: none fails, and the name of each is a line of FAULT_TOLD
 //   FAULT_SEED     of what becomes of that
 //   FAULT_LASTING  1: every call from then on, not that one alone
@@ -55,9 +56,14 @@ const char* setting(const char* name) {
   return text ? text : "";
 }
 
-Kind kind_in_environment() {
+// Does it strike this process, not only the machine under it?
+bool is_rank() {
   const char* rank = std::getenv("FAULT_RANK");
-  if (rank && std::strcmp(rank, setting("OMPI_COMM_WORLD_RANK")) != 0) return Kind::none;
+  return !rank || std::strcmp(rank, setting("OMPI_COMM_WORLD_RANK")) == 0;
+}
+
+Kind kind_in_environment() {
+  if (!is_rank() && std::strcmp(setting("FAULT_KIND"), "lost") != 0) return Kind::none;
   constexpr const char* names[] = {"none",  "enospc", "edquot",  "erofs",  "eio",  "estale", "etimedout",
                                    "eintr", "short",  "renamed", "killed", "torn", "lost",   "listed"};
   for (std::size_t i = 1; i < std::size(names); ++i)
@@ -76,6 +82,9 @@ std::string path_of(int descriptor) {
   return ::readlink(name, path, sizeof path - 1) > 0 ? path : "";
 }
 bool is_below(int descriptor) { return is_below(path_of(descriptor).c_str()); }
+std::string path_in(int folder, const char* name) {
+  return folder == AT_FDCWD || *name == '/' ? name : path_of(folder) + '/' + name;
+}
 
 Unsynced& unsynced() {
   static Unsynced all(setting("FAULT_TOLD"));
@@ -98,6 +107,8 @@ void list(const char* name) {
 
 // Is this call, which changes a file of the folder, to fail?
 bool fails(const char* name) {
+  static const bool strikes = is_rank();
+  if (!strikes) return ::access(setting("FAULT_TOLD"), F_OK) == 0;  // the machine has died
   static std::atomic<long> calls{0};
   static const char* const only = setting("FAULT_NAME");
   if (*only && std::strcmp(only, name) != 0) return false;
@@ -116,7 +127,9 @@ Kind fault(const char* name, Where where) {
   if (kind == Kind::none || !is_below(where)) return Kind::none;
   if (kind == Kind::listed) list(name);
   if (kind == Kind::listed || !fails(name)) return Kind::none;
-  if (kind == Kind::lost) unsynced().lose(std::strtoul(setting("FAULT_SEED"), nullptr, 10));
+  if (kind == Kind::lost)
+    unsynced().lose(std::strtoul(setting("FAULT_SEED"), nullptr, 10) +
+                    1000 * std::strtoul(setting("OMPI_COMM_WORLD_RANK"), nullptr, 10));
   if (kind == Kind::killed || kind == Kind::lost) ::kill(::getpid(), SIGKILL);
   return kind;
 }
@@ -250,6 +263,16 @@ int open64(const char* path, int flags, ...) {
   return opened(path, flags, [&] { return real(path, flags, mode); });
 }
 
+// Within a folder that is open: so the C++ library removes all that is in it.
+int openat(int folder, const char* name, int flags, ...) {
+  std::va_list more;
+  va_start(more, flags);
+  const mode_t mode = (flags & O_CREAT) ? va_arg(more, mode_t) : 0;
+  va_end(more);
+  static const auto real = next<int (*)(int, const char*, int, ...)>("openat");
+  return opened(path_in(folder, name).c_str(), flags, [&] { return real(folder, name, flags, mode); });
+}
+
 int fsync(int descriptor) {
   static const auto real = next<int (*)(int)>("fsync");
   return synced(descriptor, [&] { return real(descriptor); });
@@ -291,6 +314,10 @@ int unlink(const char* path) {
   static const auto real = next<int (*)(const char*)>("unlink");
   return done(__func__, path, false, [&] { return real(path); });
 }
+int unlinkat(int folder, const char* name, int flags) {
+  static const auto real = next<int (*)(int, const char*, int)>("unlinkat");
+  return done(__func__, path_in(folder, name).c_str(), false, [&] { return real(folder, name, flags); });
+}
 int remove(const char* path) {
   static const auto real = next<int (*)(const char*)>("remove");
   return done(__func__, path, false, [&] { return real(path); });
@@ -298,6 +325,10 @@ int remove(const char* path) {
 int rmdir(const char* path) {
   static const auto real = next<int (*)(const char*)>("rmdir");
   return done(__func__, path, false, [&] { return real(path); });
+}
+int futimens(int descriptor, const timespec* times) {
+  static const auto real = next<int (*)(int, const timespec*)>("futimens");
+  return done(__func__, descriptor, false, [&] { return real(descriptor, times); });
 }
 int mkdir(const char* path, mode_t mode) {
   static const auto real = next<int (*)(const char*, mode_t)>("mkdir");

@@ -33,7 +33,8 @@ class Unsynced {
   // Before the rename is done.
   void rename(const std::string& from, const std::string& to) {
     const std::lock_guard lock(mutex_);
-    const std::string replaced = aside_ + "." + std::to_string(changes_.size()) + ".replaced";
+    const std::string replaced =
+        aside_ + "." + std::to_string(::getpid()) + "." + std::to_string(changes_.size()) + ".replaced";
     const bool is_there =
         ::syscall(SYS_linkat, AT_FDCWD, to.c_str(), AT_FDCWD, replaced.c_str(), 0) == 0;  // a second name of it
     for (Change& change : changes_)

@@ -40,7 +40,7 @@ fs::path folder() {
   return path;
 }
 
-// Each rank reads a part of the logs; where one is of another study, all know.
+// Each rank reads parts of the logs, here of two pages; where one is of another study, all know.
 TEST(Samples, LogsOfManyRunsAreFoundByAllRanksTogether) {
   const fs::path path = folder() / "logs";
   world().on_root([&] {
@@ -53,7 +53,7 @@ TEST(Samples, LogsOfManyRunsAreFoundByAllRanksTogether) {
     }
   });
   const auto looked = [&](const std::string& fingerprint) {
-    parallel::BlockLog next(path, fingerprint);
+    parallel::BlockLog next(path, fingerprint, 0, 8192);
     next.look(world());
     world().on_root([&] { next.find(); });
     return next;

@@ -60,6 +60,22 @@ class BlockLogTest : public testing::Test {
   test::Scratch scratch_{"log"};
 };
 
+// Blocks of many pages, of one and of a part: a header is found from any place of the log, once.
+TEST_F(BlockLogTest, IsLookedThroughInPartsOfAnySize) {
+  BlockLog one = begun();
+  const std::vector<std::size_t> lengths{1, 3000, 497, 498, 20000, 2, 511};  // 497 values and their header fill a page
+  for (std::size_t i = 0; i < lengths.size(); ++i)
+    one.write(static_cast<std::int64_t>(i), rows_of(1, std::vector<double>(lengths[i], 0.1)));
+  one.share({});
+  for (const std::int64_t part : {1, 4096, 8192, 40960, 1 << 28}) {
+    BlockLog next(scratch_.folder(), "abc", 0, part);
+    next.find();
+    EXPECT_EQ(next.begin({}), (Blocks{0, 1, 2, 3, 4, 5, 6})) << part;
+    for (std::size_t i = 0; i < lengths.size(); ++i)
+      EXPECT_EQ(next.read(static_cast<std::int64_t>(i)).values.size(), lengths[i]) << part;
+  }
+}
+
 TEST_F(BlockLogTest, ABlockComesBackToTheBit) {
   BlockLog store = log(scratch_ / "deep" / "blocks");
   store.begin({});
