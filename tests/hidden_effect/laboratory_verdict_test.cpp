@@ -129,6 +129,27 @@ TEST(LaboratoryVerdict, AWidthThatIsOffHidesNoEffectBehindAPair) {
   EXPECT_EQ(d.effects, std::vector<std::string>{"offset_mass"}) << testing::PrintToString(d.sentences);
 }
 
+// As the width is stated another effect suits the tests better than the right one, and no pair explains them.
+TEST(LaboratoryVerdict, AWidthThatIsOffHidesNoEffectBehindAnother) {
+  const Diagnosis d =
+      diagnosed(request({"floor_tilt"}, "wrong_width", 6, 8801, 8), {"rate_strengthening", "floor_tilt"});
+  EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
+  EXPECT_EQ(d.effects, std::vector<std::string>{"floor_tilt"});
+}
+
+// The right effect does not even lower the error as the width is stated, and is found beside the width.
+TEST(LaboratoryVerdict, AWidthThatIsOffHidesNoEffectThatGainsNothing) {
+  const Diagnosis d =
+      diagnosed(request({"pressure_friction"}, "wrong_width", 6, 8808, 8), {"reduced_base", "pressure_friction"});
+  EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
+  EXPECT_EQ(d.effects, std::vector<std::string>{"pressure_friction"});
+  ASSERT_TRUE(d.best.has_value());
+  const measurement::Candidate& named = d.candidates[*d.best];
+  EXPECT_EQ(named.fit.model.free.back().name, "laboratory.width_as_stated");
+  EXPECT_NEAR(named.fit.x.back(), 0.3691 / 0.3765, 0.001);
+  EXPECT_LT(named.fit.mean_left_out(), d.base.fit.mean_left_out() - 1);
+}
+
 // Test t04 rocks so long that the truth itself misses it by 63 noise units, and friction that is 0.0002 off meets it.
 TEST(LaboratoryVerdict, AHistoryThatAHairOfFrictionTurnsNamesNoEffect) {
   const Diagnosis d = diagnosed(request({"pressure_friction"}, "", 6, 8100, 8), {"friction_wear"});

@@ -29,7 +29,8 @@ inline Questions by_misfit() {
                               gsl_cdf_ugaussian_Q((c.misfit_of_fit - samples) / std::sqrt(2 * samples)));
               },
           .another = [](const Candidate&) { return chance(another_question, 0.001); },
-          .steady = [](const Candidate&) { return chance(steady_question, 0.001); }};
+          .steady = [](const Candidate&) { return chance(steady_question, 0.001); },
+          .beside = [](const Candidate& c) { return c.misfit_of_fit; }};
 }
 
 inline Dataset cabinet_tests() {

@@ -24,6 +24,7 @@ inline constexpr const char
     *needless_effects = "with more effects, whose gain may be chance",
     *no_closer = "with numbers that bring the fit to all tests no closer, the floor's noise allowed for",
     *stands_for_tolerances = "with more effects, whose gain may be that of what is stated, off within its tolerances",
+    *further_off = "which misses all tests by more, beyond chance, where what is stated is off within its tolerances",
     *leaves_more = "which leaves more than chance even where what is stated is off within its tolerances",
     *by_luck = "by a history that the floor's noise alone turns elsewhere";
 

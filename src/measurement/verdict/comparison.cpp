@@ -24,6 +24,11 @@ std::string joined(const std::vector<std::string>& words) { return fmt::format("
 
 std::string whole(const Candidate& c) { return c.effects.empty() ? "the model as it is" : joined(c.effects); }
 
+bool enough_within_tolerances(const Diagnosis& d, const Candidate& c) {
+  const Chance* chance = answer(d, misfit_question, whole(c));
+  return chance && chance->within_tolerances;
+}
+
 const Candidate* CandidateComparison::find_best() {
   std::vector<const Candidate*> order;
   for (const Candidate& c : d_.candidates)
@@ -35,13 +40,24 @@ const Candidate* CandidateComparison::find_best() {
   const Candidate* best = nullptr;
   for (const Candidate* c : order)
     if (better_than_base(*c) && (!best || overtakes(*c, *best))) best = c;
-  if (!histories_ || !best) return best;
-  // What suits the tests best as things are stated need not where they are off. A complete one comes before more effects, and before one that is not enough.
-  for (const Candidate* c : order) {
-    if (c == best || !c->practical || c->laboratory || c->effects.size() > best->effects.size()) continue;
-    if ((c->effects.size() < best->effects.size() || !enough(*best)) && better_than_base(*c) && complete(*c)) return c;
+  return histories_ && best ? complete_instead_of(*best) : best;
+}
+
+// What suits the tests best as things are stated need not where they are off. A complete one comes before more effects and before one that is not
+// enough; before one that is, where that leaves more than chance gives, both beside what is stated. (That another is enough may be no
+// more than that the floor's noise turns its histories elsewhere.)
+const Candidate* CandidateComparison::complete_instead_of(const Candidate& best) {
+  const auto rank = [&](const Candidate* c) { return std::pair(c->effects.size(), ask_.beside(*c)); };
+  const Candidate* found = &best;
+  for (const Candidate& c : d_.candidates) {
+    if (&c == &best || !fitted_to_the_end(c) || !c.practical || c.laboratory) continue;
+    const bool is_simpler = c.effects.size() < best.effects.size();
+    if (!is_simpler && (c.effects.size() > best.effects.size() || (enough(best) && !d_.deviations_sought))) continue;
+    if (!complete(c) || !(better_than_base(c) || better_beside(c))) continue;
+    const bool is_first = found == &best && (is_simpler || !enough(best));
+    if (is_first || (rank(&c) < rank(found) && (found != &best || !by_chance(c, best)))) found = &c;
   }
-  return best;
+  return found;
 }
 
 const Candidate* CandidateComparison::least_left_out() const {
@@ -75,7 +91,7 @@ const Candidate* CandidateComparison::best_part(const Candidate& whole) const {
 
 void CandidateComparison::mark_rivals(const Candidate& best) {
   for (Candidate& c : d_.candidates)
-    c.rival = &c == &best || (c.practical && is_judged(c) && better_than_base(c) &&
+    c.rival = &c == &best || (c.practical && is_judged(c) && (better_than_base(c) || better_beside(c)) &&
                               c.effects.size() <= best.effects.size() && as_good(best, c));
   drop_needless();
 }
@@ -119,16 +135,13 @@ bool CandidateComparison::as_good(const Candidate& best, const Candidate& rival)
   if (refuted(best, rival)) return false;
   if (is_ahead(rival, best) || missed_by(rival) <= missed_by(best)) return true;
   if (only_near_enough(best) && only_near_enough(rival)) return true;
-  return enough(best) && (by_chance(best, rival) || (within_tolerances(best) && enough(rival)));
+  return enough(best) && by_chance(best, rival);
 }
 
-bool CandidateComparison::within_tolerances(const Candidate& c) const {
-  const Chance* chance = answer(d_, misfit_question, whole(c));
-  return chance && chance->within_tolerances;
-}
+bool CandidateComparison::within_tolerances(const Candidate& c) const { return enough_within_tolerances(d_, c); }
 
 bool CandidateComparison::refuted(const Candidate& best, const Candidate& rival) {
-  return histories_ && enough(best) && within_tolerances(best) && !enough(rival);
+  return histories_ && enough(best) && within_tolerances(best) && (!enough(rival) || !by_chance(best, rival));
 }
 
 bool CandidateComparison::by_chance(const Candidate& best, const Candidate& rival) {
@@ -145,9 +158,7 @@ std::string CandidateComparison::why_as_good(const Candidate& best, const Candid
   if (is_ahead(rival, best))
     return fmt::format("{} misses the tests left out by less than {}, which fits all tests more closely", name, other);
   if (missed_by(rival) <= missed_by(best)) return fmt::format("{} fits all tests as closely as {}", name, other);
-  if (const Chance* left = answer(d_, misfit_question, whole(best)); left && !left->chance())
-    return fmt::format("{} and {} both leave more than chance, but no more than one reading strays by", other, name);
-  return fmt::format("{} is enough as well if what is stated is off within its tolerances", name);
+  return fmt::format("{} and {} both leave more than chance, but no more than one reading strays by", other, name);
 }
 
 bool CandidateComparison::better_than_base(const Candidate& best) {
@@ -164,6 +175,11 @@ bool CandidateComparison::better_than_base(const Candidate& best) {
   return (help() ? !help()->chance() : gains) && !helps_by_luck(best);
 }
 
+bool CandidateComparison::better_beside(const Candidate& c) {
+  return !enough(d_.base) && enough(c) && within_tolerances(c) && effect_may_help(d_) &&
+         ask_.beside(d_.base) - ask_.beside(c) > gain_of_chance() && !helps_by_luck(c);
+}
+
 bool CandidateComparison::helps_by_luck(const Candidate& c) {
   return is_chance(d_, steady_question, whole(c), [&] { return ask_.steady(c); });
 }
@@ -174,14 +190,16 @@ bool CandidateComparison::was_luck(const Candidate& c) const {
 }
 
 bool CandidateComparison::brings_nothing(const Candidate& c) const {
-  if (!histories_) return false;
+  if (!histories_ || within_tolerances(c)) return false;
   double least = d_.base.misfit_of_fit;
   for (const Candidate& part : d_.candidates)
     if (part.visible && is_part(part, c)) least = std::min(least, part.misfit_of_fit);
   return least - c.misfit_of_fit < (c.laboratory ? gain_of_one_number() : gain_of_chance());
 }
 
-double CandidateComparison::gain_of_chance() const { return help() ? help()->usual : gain_of_one_number(); }  // none was tried
+double CandidateComparison::gain_of_chance() const {
+  return help() ? help()->usual : gain_of_one_number();
+}  // none was tried
 
 double CandidateComparison::gain_beyond_strays(const std::vector<double>& from, const std::vector<double>& to) const {
   double gain = 0;

@@ -12,6 +12,8 @@ namespace freestand::measurement {
 std::string joined(const std::vector<std::string>& words);
 // All effects of a candidate, as a question names them.
 std::string whole(const Candidate&);
+// Was it found enough, and only where something that the laboratory states is off within its tolerances?
+bool enough_within_tolerances(const Diagnosis&, const Candidate&);
 
 class CandidateComparison {
  public:
@@ -44,7 +46,7 @@ class CandidateComparison {
   bool as_good(const Candidate& best, const Candidate& rival);
   // Enough, but only if what the laboratory states is off within its tolerances: so may others be.
   bool within_tolerances(const Candidate&) const;
-  // Is the best enough if what the laboratory states is off within its tolerances, and the rival not even then?
+  // Is the best enough if what the laboratory states is off within its tolerances, and the rival not even then, or behind by more than chance?
   bool refuted(const Candidate& best, const Candidate& rival);
   // Which of these it was that makes the rival as good.
   std::string why_as_good(const Candidate& best, const Candidate& rival) const;
@@ -66,6 +68,9 @@ class CandidateComparison {
   // the covariance of its own replays than it is. And by more than its own replays stray. An effect that one test alone tells of cannot
   // be foretold without it, and gains in the fit to all.
   bool better_than_base(const Candidate&);
+  // Where something that is stated is off within its tolerances, in both: the base is not enough even then, it is, and by more than one more number gains.
+  bool better_beside(const Candidate&);
+  const Candidate* complete_instead_of(const Candidate& best);
   // Its misfit is one that data from itself may have; or not, and its own error no larger than the noise. What is missing from two of the
   // latter may be what the one leads the other by.
   bool leaves_chance(const Candidate&);

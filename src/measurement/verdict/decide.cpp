@@ -64,7 +64,7 @@ class Decision : CandidateComparison {
       c.remark = odd                       ? odd_numbers
                  : brings_nothing(c)       ? no_closer
                  : was_luck(c)             ? by_luck
-                 : refuted(best, c)        ? leaves_more
+                 : refuted(best, c)        ? enough(c) ? further_off : leaves_more
                  : within_tolerances(best) ? stands_for_tolerances
                                            : needless_effects;
       told[c.remark].push_back(fmt::format("{} ({})", joined(c.effects), three_digits(left_out(c))));
@@ -140,7 +140,12 @@ class Decision : CandidateComparison {
       say(fmt::format("{} cannot be told apart on these tests (in brackets their errors on tests left out{}): {}{}",
                       joined(told), scatter_allowed_for(), fmt::join(reasons, ", "),
                       ahead.empty() ? "" : "; every other effect misses these tests by more" + ahead));
-    else {
+    else if (within_tolerances(best)) {
+      say(fmt::format(
+          "{} explains the tests where what is stated is off within its tolerances, and no other effect of those "
+          "fitted to the end does, beyond chance",
+          joined(best.effects)));
+    } else {
       const std::string allowed = d_.friction_scatter > 0 ? scatter_allowed_for() : floor_noise_allowed_for(best);
       say(fmt::format(
           "with {} the left-out error falls from {} to {}{}; every other effect of those fitted to the end "

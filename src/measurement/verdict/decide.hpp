@@ -8,6 +8,7 @@
 //             that may join
 //   rivals    those whose own data would give the best its lead, and those that miss tests left out by less; where none is enough but by its own error, those
 //             of which that is so too
+//             Where the best is enough only if what is stated is off within its tolerances, all are judged so
 //   enough    its misfit is one that data from itself may have, or its own error is no larger than the noise. What the laboratory states
 //             wrongly is named only by the former: a number that is put right leaves noise alone
 //
@@ -27,6 +28,8 @@ struct Questions {
   std::function<Chance(const Candidate&)> enough;   // histories
   std::function<Chance(const Candidate&)> another;  // histories: does one more effect help beside these?
   std::function<Chance(const Candidate&)> steady;   // histories: does it help where its own replays do not fan out?
+  std::function<double(const Candidate&)>
+      beside;  // histories: what it misses where all that is stated is off as suits it best
 };
 
 // May an effect help, by Diagnosis::chances? Yes where that was not asked.

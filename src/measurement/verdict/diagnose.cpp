@@ -12,6 +12,7 @@
 #include "measurement/laboratory/laboratory.hpp"
 #include "measurement/noise/unread_floors.hpp"
 #include "measurement/verdict/chance_of_peaks.hpp"
+#include "measurement/verdict/comparison.hpp"
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
 #include "measurement/verdict/meets_all.hpp"
@@ -116,16 +117,35 @@ class Diagnoser : PairSearch {
           fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
   }
 
-  // Where the best effect is enough by what the laboratory may have stated wrongly, and not by chance alone.
+  // Where the best effect is enough by what the laboratory may have stated wrongly, and not as things are stated: then its numbers and errors
+  // are those of a fit in which that is free.
   void tell_deviations() {
     if (kind_of_set(bench_) != Kind::history || !out_.best || out_.effects.empty()) return;
-    const Candidate& c = out_.candidates[*out_.best];
-    if (c.laboratory || chance_as_stated(judge_of(c.fit), c.fit).chance()) return;
-    if (const std::string off = most_off(stated_beside(c.fit).stated); !off.empty())
-      out_.sentences.push_back(
-          fmt::format("beside {} the tests are judged by what suits them best within the tolerances of what is stated, "
-                      "above all as if {}: measure that again",
-                      fmt::join(c.effects, " and "), off));
+    Candidate& c = out_.candidates[*out_.best];
+    if (c.laboratory || !enough_within_tolerances(out_, c)) return;
+    const AsStated stated = stated_beside(c.fit).stated;
+    const std::string off = most_off(stated);
+    if (off.empty()) return;
+    out_.sentences.push_back(
+        fmt::format("{} is judged with what is stated as suits it best within the tolerances, above all as if {}: "
+                    "there it leaves {:.2f} "
+                    "where noise explains 1, and {:.3g} as things are stated; measure that again",
+                    fmt::join(c.effects, " and "), off, std::sqrt(stated.misfit / total(out_.samples)),
+                    std::sqrt(c.misfit_of_fit / total(out_.samples))));
+    FitTask task{.model = c.fit.model, .starts = {c.fit.x}, .screened = false};
+    for (std::size_t k = 0; k < stated.names.size(); ++k)
+      if (stated.is_off[k])
+        for (const StatedNumber& number : stated_numbers(bench_.data().tolerance, c.fit.model))
+          if (number.name == stated.names[k]) {
+            let_free(task.model, number);
+            task.starts[0].push_back(stated.x[c.fit.x.size() + k]);
+          }
+    std::copy_n(stated.x.begin(), c.fit.x.size(), task.starts[0].begin());
+    auto fits = fit_models(bench_, {task}, quick(), jobs_);
+    polish(bench_, {&fits[0]}, options_.effort, 0.05, jobs_);
+    leave_out({&fits[0]});
+    c.fit = std::move(fits[0]);
+    judge();
   }
 
   // Where nothing is named: does, of all that was tried, the base come closest with something stated wrongly?
@@ -138,8 +158,7 @@ class Diagnoser : PairSearch {
     const double number = closest->fit.x.back();
     out_.sentences.push_back(fmt::format(
         "of all that was tried the model comes closest to the tests left out, to {:.3g}, if {}{}: measure that again",
-        closest->explained, fault_sentence(closest->effects.front(), number),
-        at_its_limit(free, number)));
+        closest->explained, fault_sentence(closest->effects.front(), number), at_its_limit(free, number)));
   }
 
   // Is nothing that was tried enough as it is, and the base where all that is stated may be off? Then no effect is needed. Empty: no.
@@ -159,17 +178,21 @@ class Diagnoser : PairSearch {
     std::map<std::string, Judge> judges;  // the same for all rivals
     const auto lead = [&](const Candidate& best, const Candidate& rival) {
       if (kind_of_set(bench_) == Kind::peaks) return chance_of_lead_of_peaks(bench_, best.fit, rival.fit, jobs_);
+      if (enough_within_tolerances(out_, best))
+        return chance_of_lead(bench_, stated_beside(best.fit).judge, fit_beside(best.fit), fit_beside(rival.fit),
+                              jobs_);
       const std::string name = fmt::format("{}", fmt::join(best.effects, "+"));
       if (!judges.count(name)) judges.emplace(name, judge_of(best.fit));
       return chance_of_lead(bench_, judges.at(name), best.fit, rival.fit, jobs_);
     };
+    const auto steady = [&](const Candidate& c) {
+      return chance_of_steady_gain(bench_, out_.base.fit, enough_within_tolerances(out_, c) ? fit_beside(c.fit) : c.fit,
+                                   std::max<std::size_t>(1, tried_alone().size()), jobs_, out_.friction_scatter);
+    };
     decide(bench_, out_,
            {lead, [&](const Candidate& c) { return chance_of_misfit_of(c.fit); },
-            [&](const Candidate& c) { return chance_of_another(c); },
-            [&](const Candidate& c) {
-              return chance_of_steady_gain(bench_, out_.base.fit, c.fit, std::max<std::size_t>(1, tried_alone().size()),
-                                           jobs_, out_.friction_scatter);
-            }});
+            [&](const Candidate& c) { return chance_of_another(c); }, steady,
+            [&](const Candidate& c) { return stated_beside(c.fit).stated.misfit; }});
   }
 
   std::vector<const ModelFit*> tried_alone() const {

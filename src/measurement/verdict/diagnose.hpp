@@ -75,6 +75,7 @@ struct Diagnosis {
   std::vector<Chance> chances;             // each that decided
   std::optional<OwnNumbers> own_friction;  // of the base, or of the best effect, where it leaves more than chance
   bool friction_of_base = true;            // whose
+  bool deviations_sought = false;          // were effects fitted beside what is stated, off within its tolerances?
   // Standard deviation of ln friction from test to test that is allowed for, so that misfits count what it does not explain;
   // 0: as it makes no difference.
   double friction_scatter = 0;
@@ -89,6 +90,7 @@ struct DiagnosisOptions {
   std::size_t finals = 7;      // best single effects that are fitted to the end, with tests left out
   std::size_t pair_seeds = 3;  // best single effects that others are joined to
   std::size_t pair_finals = 4;
+  std::size_t fault_seeds = 2;     // best faults of the laboratory that effects are joined to
   std::size_t stride_finals = 12;  // models fitted by strides that are fitted to the end
   Values start;                    // of the base's free numbers; empty: screened
 };

@@ -124,6 +124,14 @@ EffectSearch::Deviated EffectSearch::stated_beside(const ModelFit& fit) const {
   return deviated;
 }
 
+ModelFit EffectSearch::fit_beside(const ModelFit& fit) const {
+  const AsStated stated = stated_beside(fit).stated;
+  ModelFit beside;
+  beside.model = stated.model;
+  beside.x = stated.x;
+  return beside;
+}
+
 bool EffectSearch::look_for_deviations(const Candidate& c) {
   if (c.effects.empty() || c.laboratory || deviated_.count(c.effects)) return false;
   return look_for_deviations_from(c.effects, c.fit);
@@ -136,9 +144,13 @@ bool EffectSearch::look_for_deviations_from(const std::vector<std::string>& effe
     tasks.push_back({.model = std::move(fault.model), .screened = false});
     tasks.back().starts = starts_from({fit.x}, tasks.back().model, points);
   }
-  for (ModelFit& found : fit_models(bench_, tasks, quick(), jobs_)) deviated_[effects].push_back(std::move(found));
-  beside_.clear();
+  for (ModelFit& found : fit_models(bench_, tasks, quick(), jobs_)) add_deviation(effects, std::move(found));
   return !tasks.empty();
+}
+
+void EffectSearch::add_deviation(const std::vector<std::string>& effects, ModelFit found) {
+  deviated_[effects].push_back(std::move(found));
+  beside_.clear();
 }
 
 // Each as it would be at nothing, and as it was fitted beside them where it was.

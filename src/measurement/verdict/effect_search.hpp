@@ -66,10 +66,14 @@ class EffectSearch {
     Judge judge;
   };
   Deviated stated_beside(const ModelFit&) const;
+  // A model in which all that is stated is free, at these numbers.
+  ModelFit fit_beside(const ModelFit&) const;
   // Looks for it as for an effect, by fits with one of these numbers free. False: it was looked for, or none changes anything.
   bool look_for_deviations(const Candidate&);
   // The same from another place of theirs, which adds to what was found. False: nothing that is stated changes anything.
   bool look_for_deviations_from(const std::vector<std::string>& effects, const ModelFit&);
+  // A fit of these effects with something that is stated free.
+  void add_deviation(const std::vector<std::string>& effects, ModelFit found);
   // With nothing that is stated off.
   Chance chance_as_stated(const Judge&, const ModelFit&) const;
   // Does one more effect help beside those of a candidate? Of all that may join it, beyond such deviations.

@@ -8,7 +8,7 @@
 namespace freestand::measurement {
 
 void PairSearch::search_more() {
-  if (!second_effect_wanted()) return;
+  if (!more_wanted() || one_is_enough_as_deviated()) return;
   fit_pairs();
   judge();
   if (exchange_in_best_pair()) judge();
@@ -26,10 +26,60 @@ bool PairSearch::one_more_wanted(const Candidate& c) {
   return wanted() && (!look_for_deviations(c) || wanted());
 }
 
-bool PairSearch::second_effect_wanted() {
+bool PairSearch::more_wanted() {
   if (tests_ < 4 || kind_of_set(bench_) != Kind::history || only_friction_scatters(out_)) return false;
   if (!effect_may_help(out_) && chance_of_misfit_of(out_.base.fit).chance()) return false;
-  return one_more_wanted(best());
+  return one_more_wanted(best()) || chance_of_misfit_of(best().fit).within_tolerances;
+}
+
+bool PairSearch::one_is_enough_as_deviated() {
+  out_.deviations_sought = true;
+  for (const Candidate* c : singles_by_left_out()) look_for_deviations(*c);
+  join_effects_to_faults();
+  bool is_enough = false;
+  for (const Candidate* c : singles_by_left_out())
+    is_enough = is_enough || (chance_of_misfit_of(c->fit).chance() && chance_of_another(*c).chance());
+  return is_enough;
+}
+
+void PairSearch::join_effects_to_faults() {
+  std::vector<const Candidate*> faults;
+  std::vector<Candidate*> singles;
+  for (Candidate& c : out_.candidates) {
+    if (c.laboratory && gains(c.fit.score, out_.base.fit.score)) faults.push_back(&c);
+    if (!c.laboratory && c.visible && c.effects.size() == 1) singles.push_back(&c);
+  }
+  std::stable_sort(faults.begin(), faults.end(),
+                   [](const Candidate* a, const Candidate* b) { return a->fit.score < b->fit.score; });
+  faults.resize(std::min(faults.size(), options_.fault_seeds));
+  std::vector<FitTask> tasks;
+  std::vector<Candidate*> of_task;
+  for (const Candidate* fault : faults)
+    for (Candidate* single : singles) {
+      const dynamics::Effect& effect = of_catalogue(single->effects[0]);
+      tasks.push_back({.model = with_effect(narrowed(fault->fit), effect, bench_.reach()), .screened = false});
+      tasks.back().starts = starts_from({fault->fit.x}, tasks.back().model, 24 * fitted_numbers(effect));
+      of_task.push_back(single);
+    }
+  auto fits = fit_models(bench_, tasks, quick(), jobs_);
+  for (std::size_t i = 0; i < fits.size(); ++i) add_deviation(of_task[i]->effects, std::move(fits[i]));
+  std::vector<ModelFit*> enough;
+  for (Candidate* single : singles)
+    if (!single->fit.left_out_refitted && chance_of_misfit_of(single->fit).chance()) enough.push_back(&single->fit);
+  if (enough.empty()) return;
+  refine(bench_, enough, options_.effort, jobs_);
+  leave_out(enough);
+  judge();
+}
+
+std::vector<const Candidate*> PairSearch::singles_by_left_out() const {
+  std::vector<const Candidate*> order;
+  for (const Candidate& c : out_.candidates)
+    if (c.visible && c.fit.left_out_refitted && !c.laboratory && c.effects.size() == 1) order.push_back(&c);
+  std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
+    return a->fit.mean_left_out() < b->fit.mean_left_out();
+  });
+  return order;
 }
 
 bool PairSearch::add_one_more() {
@@ -55,12 +105,7 @@ bool PairSearch::join_others_to(const Candidate& whole) {
 }
 
 void PairSearch::fit_pairs() {
-  std::vector<const Candidate*> order;
-  for (const Candidate& c : out_.candidates)
-    if (c.visible && c.fit.left_out_refitted && !c.laboratory) order.push_back(&c);
-  std::stable_sort(order.begin(), order.end(), [](const Candidate* a, const Candidate* b) {
-    return a->fit.mean_left_out() < b->fit.mean_left_out();
-  });
+  std::vector<const Candidate*> order = singles_by_left_out();
   order.resize(std::min(order.size(), options_.pair_seeds));
   std::vector<Candidate> pairs;
   std::vector<FitTask> tasks;

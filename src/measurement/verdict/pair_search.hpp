@@ -22,7 +22,14 @@ class PairSearch : public EffectSearch {
   bool join_others_to(const Candidate& whole);
 
  private:
-  bool second_effect_wanted();
+  // Is the best candidate not enough as things are stated, or does one more effect help beside it?
+  bool more_wanted();
+  // Does a single effect explain all where something that is stated is off within its tolerance? The fit of the right one beside a width
+  // that is off by a hundredth may be far worse than those of others, as things are stated.
+  bool one_is_enough_as_deviated();
+  // The base with a fault of the laboratory may come closer than with any effect alone: effects are joined to that.
+  void join_effects_to_faults();
+  std::vector<const Candidate*> singles_by_left_out() const;  // those that were fitted to the end
   // To the best one of several effects. False: nothing more is wanted or can join, or none of those that joined it has made a better one.
   bool add_one_more();
   void fit_pairs();
