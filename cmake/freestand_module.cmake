@@ -72,7 +72,7 @@ function(freestand_tests MODULE)
   freestand_batches(test_${MODULE} 22)
   target_link_libraries(test_${MODULE} PRIVATE ${links} GTest::gtest_main)
   freestand_test_program(test_${MODULE} ${ARG_COMPUTES})
-  gtest_discover_tests(test_${MODULE} TEST_PREFIX "${MODULE}: " DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${MODULE})
+  gtest_discover_tests(test_${MODULE} TEST_PREFIX "${MODULE}: " NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES LABELS ${MODULE})
 endfunction()
 
 # Code that runs once or a few times: what it calls is compiled with -O3, it itself in less time; with COMPUTES TRUE it has

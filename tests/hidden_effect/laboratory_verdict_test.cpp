@@ -11,6 +11,7 @@
 #include "measurement/verdict/diagnose.hpp"
 #include "study/read_measurements.hpp"
 #include "support/free_friction.hpp"
+#include "support/repeats.hpp"
 #include "support/scratch.hpp"
 
 namespace freestand::test {
@@ -125,6 +126,7 @@ TEST(LaboratoryVerdict, AWidthThatIsOffIsNoSecondEffect) {
 
 // Here the reduced base suits the tests better as the width is stated, and only a pair of both explained them.
 TEST(LaboratoryVerdict, AWidthThatIsOffHidesNoEffectBehindAPair) {
+  if (!long_tests()) GTEST_SKIP() << "half a minute: FREESTAND_LONG_TESTS";
   const Diagnosis d = diagnosed(request({"offset_mass"}, "wrong_width", 6, 8302, 8), {"offset_mass", "reduced_base"});
   EXPECT_EQ(d.effects, std::vector<std::string>{"offset_mass"}) << testing::PrintToString(d.sentences);
 }
@@ -139,6 +141,7 @@ TEST(LaboratoryVerdict, AWidthThatIsOffHidesNoEffectBehindAnother) {
 
 // The right effect does not even lower the error as the width is stated, and is found beside the width.
 TEST(LaboratoryVerdict, AWidthThatIsOffHidesNoEffectThatGainsNothing) {
+  if (!long_tests()) GTEST_SKIP() << "a minute: FREESTAND_LONG_TESTS";
   const Diagnosis d =
       diagnosed(request({"pressure_friction"}, "wrong_width", 6, 8808, 8), {"reduced_base", "pressure_friction"});
   EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
@@ -152,6 +155,7 @@ TEST(LaboratoryVerdict, AWidthThatIsOffHidesNoEffectThatGainsNothing) {
 
 // Test t04 rocks so long that the truth itself misses it by 63 noise units, and friction that is 0.0002 off meets it.
 TEST(LaboratoryVerdict, AHistoryThatAHairOfFrictionTurnsNamesNoEffect) {
+  if (!long_tests()) GTEST_SKIP() << "half a minute: FREESTAND_LONG_TESTS";
   const Diagnosis d = diagnosed(request({"pressure_friction"}, "", 6, 8100, 8), {"friction_wear"});
   EXPECT_EQ(d.verdict, Verdict::unknown) << testing::PrintToString(d.sentences);
   EXPECT_TRUE(d.effects.empty()) << testing::PrintToString(d.effects);

@@ -74,6 +74,7 @@ TEST(ChanceOfPeaks, HasItsSize) {
 // Friction that differs from test to test: where slips just begin they hang on it far more than where they are long. (As if all tests
 // scattered alike, 11, 11 and 15 of 50 sets were said to lack an effect where friction scattered by 5, 10 and 15 %.)
 TEST(ChanceOfPeaks, HasItsSizeWhereFrictionScatters) {
+  if (!test::long_tests()) GTEST_SKIP() << "half a minute: FREESTAND_LONG_TESTS";
   const int sets = test::repeats_asked(50);
   int rejected = 0;
   for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key)

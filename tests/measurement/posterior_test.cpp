@@ -66,6 +66,7 @@ Dataset read_otherwise(Dataset data, double gain, double late_s) {
 
 // A laboratory that states its floor's gain to 1 % and its clocks to 10 ms may be off by as much: intervals hold the truth all the same.
 TEST(Posterior, IntervalsHoldTheTruthWhereWhatIsStatedIsOffWithinItsTolerances) {
+  if (!test::long_tests()) GTEST_SKIP() << "a minute: FREESTAND_LONG_TESTS";
   const Dataset truth = test::made_dataset(weakening_cabinet(), 0);
   const Values numbers = {0.2, 0.3, 0.1};
   int holds[3] = {};
