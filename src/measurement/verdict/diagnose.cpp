@@ -145,6 +145,7 @@ class Diagnoser : PairSearch {
     polish(bench_, {&fits[0]}, options_.effort, 0.05, jobs_);
     leave_out({&fits[0]});
     c.fit = std::move(fits[0]);
+    c.remark = fmt::format("if {}", off);
     judge();
   }
 

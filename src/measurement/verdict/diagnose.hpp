@@ -57,8 +57,8 @@ struct Candidate {
   double delta_bic = 0;                      // against the base; negative: better
   double difference = 0, difference_se = 0;  // of the left-out score to the best one's, paired over the tests
   bool rival = false;                        // cannot be told from the best
-  std::string remark =
-      {};  // why it is not named though it misses by less; of outcomes also why it was not fitted to the end
+  // Why it is not named though it misses by less; of outcomes also why it was not fitted to the end; of the named one, what is off beside it.
+  std::string remark = {};
   bool laboratory = false;  // no effect, but something that the laboratory states wrongly
 };
 
