@@ -59,6 +59,18 @@ TEST_F(DecideBeside, TheOneThatIsEnoughIsNamedThoughItMissesByMoreAsStated) {
   EXPECT_STREQ(d.candidates[1].remark.c_str(), leaves_more);
 }
 
+// Nor is it, as things are stated, any better than the base.
+TEST_F(DecideBeside, TheOneThatIsEnoughIsNamedThoughNoneIsBetterThanTheBaseAsStated) {
+  for (const bool sought : {true, false}) {
+    Diagnosis d = undecided(bench_, 0);
+    d.deviations_sought = sought;
+    d.candidates = {candidate(bench_, {"rate_strengthening"}, 7, 3.2), candidate(bench_, {"floor_tilt"}, 6, 3.1)};
+    decide(bench_, d, ask());
+    EXPECT_EQ(d.verdict, sought ? Verdict::missing : Verdict::unknown) << testing::PrintToString(d.sentences);
+    EXPECT_EQ(d.effects, sought ? std::vector<std::string>{"floor_tilt"} : std::vector<std::string>{});
+  }
+}
+
 // Of two that are enough chance decides, both beside what is stated.
 TEST_F(DecideBeside, OfTwoThatAreEnoughTheLeadBesideWhatIsStatedDecides) {
   beside_["rate_strengthening"] = {0.06, 1.4};

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/digits.hpp"
 #include "measurement/verdict/answers.hpp"
@@ -40,22 +41,25 @@ const Candidate* CandidateComparison::find_best() {
   const Candidate* best = nullptr;
   for (const Candidate* c : order)
     if (better_than_base(*c) && (!best || overtakes(*c, *best))) best = c;
-  return histories_ && best ? complete_instead_of(*best) : best;
+  return histories_ ? complete_instead_of(best) : best;
 }
 
-// What suits the tests best as things are stated need not where they are off. A complete one comes before more effects and before one that is not
-// enough; before one that is, where that leaves more than chance gives, both beside what is stated. (That another is enough may be no
-// more than that the floor's noise turns its histories elsewhere.)
-const Candidate* CandidateComparison::complete_instead_of(const Candidate& best) {
+// What suits the tests best as things are stated need not where they are off, and the right effect may be no better than the base, as they are.
+// A complete one comes before more effects and before one that is not enough; before one that is, where that leaves more than chance gives, both
+// beside what is stated. (That another is enough may be no more than that the floor's noise turns its histories elsewhere.)
+const Candidate* CandidateComparison::complete_instead_of(const Candidate* best) {
+  if (!best && !d_.deviations_sought) return best;
+  const std::size_t most = best ? best->effects.size() : std::numeric_limits<std::size_t>::max();
+  const bool is_enough = best && enough(*best);
   const auto rank = [&](const Candidate* c) { return std::pair(c->effects.size(), ask_.beside(*c)); };
-  const Candidate* found = &best;
+  const Candidate* found = best;
   for (const Candidate& c : d_.candidates) {
-    if (&c == &best || !fitted_to_the_end(c) || !c.practical || c.laboratory) continue;
-    const bool is_simpler = c.effects.size() < best.effects.size();
-    if (!is_simpler && (c.effects.size() > best.effects.size() || (enough(best) && !d_.deviations_sought))) continue;
+    if (&c == best || !fitted_to_the_end(c) || !c.practical || c.laboratory) continue;
+    const bool is_simpler = c.effects.size() < most;
+    if (!is_simpler && (c.effects.size() > most || (is_enough && !d_.deviations_sought))) continue;
     if (!complete(c) || !(better_than_base(c) || better_beside(c))) continue;
-    const bool is_first = found == &best && (is_simpler || !enough(best));
-    if (is_first || (rank(&c) < rank(found) && (found != &best || !by_chance(c, best)))) found = &c;
+    const bool is_first = found == best && (is_simpler || !is_enough);
+    if (is_first || (rank(&c) < rank(found) && (found != best || !by_chance(c, *best)))) found = &c;
   }
   return found;
 }
@@ -176,7 +180,7 @@ bool CandidateComparison::better_than_base(const Candidate& best) {
 }
 
 bool CandidateComparison::better_beside(const Candidate& c) {
-  return !enough(d_.base) && enough(c) && within_tolerances(c) && effect_may_help(d_) &&
+  return d_.deviations_sought && !enough(d_.base) && enough(c) && within_tolerances(c) && effect_may_help(d_) &&
          ask_.beside(d_.base) - ask_.beside(c) > gain_of_chance() && !helps_by_luck(c);
 }
 
@@ -197,9 +201,8 @@ bool CandidateComparison::brings_nothing(const Candidate& c) const {
   return least - c.misfit_of_fit < (c.laboratory ? gain_of_one_number() : gain_of_chance());
 }
 
-double CandidateComparison::gain_of_chance() const {
-  return help() ? help()->usual : gain_of_one_number();
-}  // none was tried
+// Of one number where no effect was tried.
+double CandidateComparison::gain_of_chance() const { return help() ? help()->usual : gain_of_one_number(); }
 
 double CandidateComparison::gain_beyond_strays(const std::vector<double>& from, const std::vector<double>& to) const {
   double gain = 0;

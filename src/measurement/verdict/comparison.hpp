@@ -68,9 +68,9 @@ class CandidateComparison {
   // the covariance of its own replays than it is. And by more than its own replays stray. An effect that one test alone tells of cannot
   // be foretold without it, and gains in the fit to all.
   bool better_than_base(const Candidate&);
-  // Where something that is stated is off within its tolerances, in both: the base is not enough even then, it is, and by more than one more number gains.
+  // Where something that is stated is off within its tolerances, in both: the base is not enough even so, this one is, and gains more than chance.
   bool better_beside(const Candidate&);
-  const Candidate* complete_instead_of(const Candidate& best);
+  const Candidate* complete_instead_of(const Candidate* best);  // null: none does better than the base
   // Its misfit is one that data from itself may have; or not, and its own error no larger than the noise. What is missing from two of the
   // latter may be what the one leads the other by.
   bool leaves_chance(const Candidate&);

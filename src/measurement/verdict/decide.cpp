@@ -119,7 +119,9 @@ class Decision : CandidateComparison {
   void name_rivals(const std::vector<const Candidate*>& rivals, const std::string& ahead, const Candidate& chosen) {
     std::vector<std::string> told, reasons;
     for (const Candidate* rival : rivals) {
-      told.push_back(fmt::format("{} ({})", joined(rival->effects), three_digits(left_out(*rival))));
+      told.push_back(within_tolerances(*rival)
+                         ? joined(rival->effects) + " (with what is stated off within its tolerances)"
+                         : fmt::format("{} ({})", joined(rival->effects), three_digits(left_out(*rival))));
       if (rival != &chosen) reasons.push_back(why_as_good(chosen, *rival));
       for (const auto& effect : rival->effects)
         if (!rival->laboratory && std::find(d_.effects.begin(), d_.effects.end(), effect) == d_.effects.end())

@@ -117,36 +117,41 @@ class Diagnoser : PairSearch {
           fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
   }
 
-  // Where the best effect is enough by what the laboratory may have stated wrongly, and not as things are stated: then its numbers and errors
-  // are those of a fit in which that is free.
+  // What is named because it is enough where something that is stated is off: its numbers and errors are those of a fit in which that is free.
   void tell_deviations() {
-    if (kind_of_set(bench_) != Kind::history || !out_.best || out_.effects.empty()) return;
-    Candidate& c = out_.candidates[*out_.best];
-    if (c.laboratory || !enough_within_tolerances(out_, c)) return;
-    const AsStated stated = stated_beside(c.fit).stated;
-    const std::string off = most_off(stated);
-    if (off.empty()) return;
-    out_.sentences.push_back(
-        fmt::format("{} is judged with what is stated as suits it best within the tolerances, above all as if {}: "
-                    "there it leaves {:.2f} "
-                    "where noise explains 1, and {:.3g} as things are stated; measure that again",
-                    fmt::join(c.effects, " and "), off, std::sqrt(stated.misfit / total(out_.samples)),
-                    std::sqrt(c.misfit_of_fit / total(out_.samples))));
-    FitTask task{.model = c.fit.model, .starts = {c.fit.x}, .screened = false};
-    for (std::size_t k = 0; k < stated.names.size(); ++k)
-      if (stated.is_off[k])
-        for (const StatedNumber& number : stated_numbers(bench_.data().tolerance, c.fit.model))
-          if (number.name == stated.names[k]) {
-            let_free(task.model, number);
-            task.starts[0].push_back(stated.x[c.fit.x.size() + k]);
-          }
-    std::copy_n(stated.x.begin(), c.fit.x.size(), task.starts[0].begin());
-    auto fits = fit_models(bench_, {task}, quick(), jobs_);
-    polish(bench_, {&fits[0]}, options_.effort, 0.05, jobs_);
-    leave_out({&fits[0]});
-    c.fit = std::move(fits[0]);
-    c.remark = fmt::format("if {}", off);
+    if (kind_of_set(bench_) != Kind::history || out_.effects.empty()) return;
+    std::vector<ModelFit*> fits;
+    for (Candidate& c : out_.candidates) {
+      if (!c.rival || c.laboratory || !enough_within_tolerances(out_, c)) continue;
+      const AsStated stated = stated_beside(c.fit).stated;
+      const std::string off = most_off(stated);
+      if (off.empty()) continue;
+      const auto error = [&](double misfit) { return std::sqrt(misfit / total(out_.samples)); };
+      out_.sentences.push_back(fmt::format(
+          "{} is judged with what is stated as suits it best within the tolerances, above all as if {}: "
+          "there it leaves {:.2f} where noise explains 1, and {:.3g} as things are stated; measure that again",
+          joined(c.effects), off, error(stated.misfit), error(c.misfit_of_fit)));
+      c.remark = fmt::format("if {}", off);
+      c.fit = fitted_with_what_is_off(c.fit, stated);
+      fits.push_back(&c.fit);
+    }
+    if (fits.empty()) return;
+    polish(bench_, fits, options_.effort, 0.05, jobs_);
+    leave_out(fits);
     judge();
+  }
+
+  ModelFit fitted_with_what_is_off(const ModelFit& fit, const AsStated& stated) const {
+    FitTask task{.model = fit.model, .screened = false};
+    Values x(stated.x.begin(), stated.x.begin() + static_cast<long>(fit.x.size()));
+    for (const StatedNumber& number : stated_numbers(bench_.data().tolerance, fit.model)) {
+      const auto k = static_cast<std::size_t>(std::ranges::find(stated.names, number.name) - stated.names.begin());
+      if (!stated.is_off[k]) continue;
+      let_free(task.model, number);
+      x.push_back(stated.x[fit.x.size() + k]);
+    }
+    task.starts = {std::move(x)};
+    return std::move(fit_models(bench_, {task}, quick(), jobs_)[0]);
   }
 
   // Where nothing is named: does, of all that was tried, the base come closest with something stated wrongly?
