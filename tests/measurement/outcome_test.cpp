@@ -90,7 +90,6 @@ TEST(OutcomeFit, IntervalsOfFewTestsHoldTheTruth) {
 
 // So do those of the number of an effect, of which some forty values are looked at.
 TEST(OutcomeFit, IntervalsOfTheNumberOfAnEffectHoldTheTruth) {
-  if (!test::long_tests()) GTEST_SKIP() << "a minute: FREESTAND_LONG_TESTS";
   Held held;
   const auto* offset_mass = effects::find("offset_mass");
   for (std::uint64_t seed = 200; held.sets < test::repeats_asked(test::long_tests() ? 60 : 20); ++seed) {

@@ -123,7 +123,7 @@ class Diagnoser : PairSearch {
     std::vector<ModelFit*> fits;
     for (Candidate& c : out_.candidates) {
       if (!c.rival || c.laboratory || !enough_within_tolerances(out_, c)) continue;
-      const AsStated stated = stated_beside(c.fit).stated;
+      const AsStated stated = what_suits(c.fit);
       const std::string off = most_off(stated);
       if (off.empty()) continue;
       const auto error = [&](double misfit) { return std::sqrt(misfit / total(out_.samples)); };
@@ -198,7 +198,7 @@ class Diagnoser : PairSearch {
     decide(bench_, out_,
            {lead, [&](const Candidate& c) { return chance_of_misfit_of(c.fit); },
             [&](const Candidate& c) { return chance_of_another(c); }, steady,
-            [&](const Candidate& c) { return stated_beside(c.fit).stated.misfit; }});
+            [&](const Candidate& c) { return what_suits(c.fit).misfit; }});
   }
 
   std::vector<const ModelFit*> tried_alone() const {
@@ -287,7 +287,7 @@ class Diagnoser : PairSearch {
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
     const Judge judge = judge_of(known.fit);
     OwnNumbers own = own_friction(bench_, judge, known.fit, jobs_);
-    const double least = stated_beside(known.fit).stated.misfit - chance_of_another(known).observed;
+    const double least = what_suits(known.fit).misfit - chance_of_another(known).observed;
     look_at_clocks(judge, known, std::min(least, own.misfit));
     if (!clocks_at_fault_.empty() || !explain_tests(own, total(judge.samples()), least)) return false;
     out_.friction_scatter = own.scatter;

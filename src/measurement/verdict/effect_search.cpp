@@ -124,12 +124,14 @@ EffectSearch::Deviated EffectSearch::stated_beside(const ModelFit& fit) const {
   return deviated;
 }
 
+AsStated EffectSearch::what_suits(const ModelFit& fit) const {
+  const auto known = beside_.find({effects_of(fit, base_), fit.x, out_.friction_scatter});
+  return known != beside_.end() ? known->second.second : stated_beside(fit).stated;
+}
+
 ModelFit EffectSearch::fit_beside(const ModelFit& fit) const {
-  const AsStated stated = stated_beside(fit).stated;
-  ModelFit beside;
-  beside.model = stated.model;
-  beside.x = stated.x;
-  return beside;
+  AsStated stated = what_suits(fit);
+  return {.model = std::move(stated.model), .x = std::move(stated.x)};
 }
 
 bool EffectSearch::look_for_deviations(const Candidate& c) {

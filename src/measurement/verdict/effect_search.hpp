@@ -66,6 +66,7 @@ class EffectSearch {
     Judge judge;
   };
   Deviated stated_beside(const ModelFit&) const;
+  AsStated what_suits(const ModelFit&) const;  // the same without the judge, which takes its time each time
   // A model in which all that is stated is free, at these numbers.
   ModelFit fit_beside(const ModelFit&) const;
   // Looks for it as for an effect, by fits with one of these numbers free. False: it was looked for, or none changes anything.

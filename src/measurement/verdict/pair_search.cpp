@@ -56,9 +56,7 @@ void PairSearch::join_effects_to_faults() {
   std::vector<Candidate*> of_task;
   for (const Candidate* fault : faults)
     for (Candidate* single : singles) {
-      const dynamics::Effect& effect = of_catalogue(single->effects[0]);
-      tasks.push_back({.model = with_effect(narrowed(fault->fit), effect, bench_.reach()), .screened = false});
-      tasks.back().starts = starts_from({fault->fit.x}, tasks.back().model, 24 * fitted_numbers(effect));
+      tasks.push_back(task_of_joining(fault->fit, of_catalogue(single->effects[0])));
       of_task.push_back(single);
     }
   auto fits = fit_models(bench_, tasks, quick(), jobs_);
@@ -169,14 +167,18 @@ bool PairSearch::exchange_in_best_pair() {
   return true;
 }
 
+FitTask PairSearch::task_of_joining(const ModelFit& fit, const dynamics::Effect& other) const {
+  FitTask task{.model = with_effect(narrowed(fit), other, bench_.reach()), .screened = false};
+  task.starts = starts_from({fit.x}, task.model, 24 * fitted_numbers(other));
+  return task;
+}
+
 void PairSearch::join(const std::vector<std::string>& names, const ModelFit& fit, const dynamics::Effect& other,
                       std::vector<Candidate>& larger, std::vector<FitTask>& tasks) {
   if (names.size() == 1) pairs_.add(names[0], other.name);
   larger.push_back({.effects = names, .fit = fit});
   larger.back().effects.push_back(other.name);
-  tasks.push_back({.model = with_effect(narrowed(fit), other, bench_.reach())});
-  tasks.back().starts = starts_from({fit.x}, tasks.back().model, 24 * fitted_numbers(other));
-  tasks.back().screened = false;
+  tasks.push_back(task_of_joining(fit, other));
   tasks.back().known = known_of(fit);
   larger.back().fit.model = tasks.back().model;
 }

@@ -40,6 +40,7 @@ class PairSearch : public EffectSearch {
   // The seeds of the pairs were the best by themselves, which they need not be beside a second effect: one of the best
   // pair makes way for others that were not yet joined to the one that stays.
   bool exchange_in_best_pair();
+  FitTask task_of_joining(const ModelFit&, const dynamics::Effect& other) const;
   void join(const std::vector<std::string>& names, const ModelFit& fit, const dynamics::Effect& other,
             std::vector<Candidate>& larger, std::vector<FitTask>& tasks);
   // Would one of the two do, from where the pair stands? Its own fit may have stuck elsewhere.
