@@ -263,7 +263,7 @@ class Pool {
 
   void march(Group<Motion>& group) {
     LawRows& rows = group.rows();
-    const Stopped stopped = marches_[rows.turns][rows.slips](rows, 0, reinterpret_cast<double*>(series_.data()));
+    const Stopped stopped = marches_[rows.turns][rows.slips](rows, reinterpret_cast<double*>(series_.data()));
     // From the last one on, since the last one of the group takes the place of one that leaves.
     for (int slot = pack_lanes_; slot-- > 0;) {
       const unsigned bit = 1U << slot;

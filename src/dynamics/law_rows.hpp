@@ -132,13 +132,13 @@ HistoryPoint& add_point(History&);
 void add_blow(History&, double time_s, int pivot);  // of a block that rocks on
 
 // Which lanes stopped: before a step in which something may happen, at the end of their motion, or after a blow that leaves open
-// how they go on. Bit l: lane first + l.
+// how they go on. Bit l: lane l.
 struct Stopped {
   unsigned before_step, at_end, undecided;
 };
 
-// Steps with lanes [first, first + lanes of a pack), until one stops; those beyond rows.lanes stand still.
+// Steps with the first pack of lanes, until one stops; those beyond rows.lanes stand still.
 // series: room for a LawArc of the motion's order a lane, filled with the step before which it stopped.
-using LawMarch = Stopped (*)(LawRows& rows, int first, double* series);
+using LawMarch = Stopped (*)(LawRows& rows, double* series);
 
 }  // namespace freestand::dynamics

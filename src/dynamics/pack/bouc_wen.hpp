@@ -5,7 +5,7 @@
 
 #include "dynamics/pack/bouc_wen_lane.hpp"
 #include "dynamics/pack/power.hpp"
-#include "dynamics/pack/wide.hpp"
+#include "dynamics/pack/twin.hpp"
 
 namespace freestand::dynamics::FREESTAND_ISA {
 namespace {
@@ -23,8 +23,8 @@ class BoucWenPool {
     for (int i = 0; i < slots; ++i) refill(i);
     for (int live = 1; live;) {
       live = 0;
-      for (int from = 0; from < slots; from += wide_lanes)
-        if (busy_[from / wide_lanes]) {
+      for (int from = 0; from < slots; from += twin_lanes)
+        if (busy_[from / twin_lanes]) {
           ++live;
           march(from);
         }
@@ -40,26 +40,26 @@ class BoucWenPool {
     alignas(64) double W[slots], over_w[slots], n[slots], saturated[slots], tolerance[slots], live[slots];
   };
   struct Terms {
-    alignas(64) double p[N + 1][wide_lanes], zeta[N + 1][wide_lanes], slip[N + 1][wide_lanes], tau[wide_lanes],
-        A[wide_lanes], fraction[wide_lanes];
+    alignas(64) double p[N + 1][twin_lanes], zeta[N + 1][twin_lanes], slip[N + 1][twin_lanes], tau[twin_lanes],
+        A[twin_lanes], fraction[twin_lanes];
   };
 
   void march(int from) {
-    const Wide zeta0 = wide(r_.zeta + from), p0 = wide(r_.p + from), A = wide(r_.A + from),
-               slope = wide(r_.slope + from);
-    const Wide W = wide(r_.W + from), n = wide(r_.n + from), fraction = wide(r_.fraction + from);
-    Wide p[N + 1], zeta[N + 1], slip[N + 1], q[N], d[N + 1], nd[N + 1], e[N];  // d_k = k zeta_k, e_k = k q_k
+    const Twin zeta0 = load_twin(r_.zeta + from), p0 = load_twin(r_.p + from), A = load_twin(r_.A + from),
+               slope = load_twin(r_.slope + from);
+    const Twin W = load_twin(r_.W + from), n = load_twin(r_.n + from), fraction = load_twin(r_.fraction + from);
+    Twin p[N + 1], zeta[N + 1], slip[N + 1], q[N], d[N + 1], nd[N + 1], e[N];  // d_k = k zeta_k, e_k = k q_k
     p[0] = p0;
     zeta[0] = zeta0;
-    slip[0] = wide(r_.slip + from);
-    q[0] = wide(r_.q + from);
-    const Wide over_zeta = Wide(1.0) / zeta0, n_q0 = n * q[0];
+    slip[0] = load_twin(r_.slip + from);
+    q[0] = load_twin(r_.q + from);
+    const Twin over_zeta = Twin(1.0) / zeta0, n_q0 = n * q[0];
 #pragma GCC unroll 16
     for (int k = 0; k < N; ++k) {
-      const Wide over(1.0 / (k + 1));
-      Wide plastic = p[0] * q[k];
+      const Twin over(1.0 / (k + 1));
+      Twin plastic = p[0] * q[k];
       if (k > 0) {
-        Wide earlier = p[k] * q[0];
+        Twin earlier = p[k] * q[0];
 #pragma GCC unroll 16
         for (int j = 1; j < k; ++j) earlier = earlier + p[k - j] * q[j];
         plastic = earlier + plastic;
@@ -67,15 +67,15 @@ class BoucWenPool {
       d[k + 1] = p[k] - plastic;
       slip[k + 1] = plastic * over;
       zeta[k + 1] = d[k + 1] * over;
-      Wide push = W * zeta[k];
+      Twin push = W * zeta[k];
       if (k == 0) push = push + A;
       if (k == 1) push = push + slope;
-      p[k + 1] = push * Wide(-1.0 / (k + 1));
+      p[k + 1] = push * Twin(-1.0 / (k + 1));
       if (k + 1 < N) {
         nd[k + 1] = n * d[k + 1];
-        Wide sum = n_q0 * d[k + 1];
+        Twin sum = n_q0 * d[k + 1];
         if (k > 0) {
-          Wide earlier = nd[k] * q[1] - e[1] * zeta[k];
+          Twin earlier = nd[k] * q[1] - e[1] * zeta[k];
 #pragma GCC unroll 16
           for (int j = 2; j <= k; ++j) earlier = earlier + (nd[k + 1 - j] * q[j] - e[j] * zeta[k + 1 - j]);
           sum = earlier + sum;
@@ -87,42 +87,42 @@ class BoucWenPool {
 
     // The largest part of the interval over which the last terms are within the tolerance, and the terms that follow are
     // less: those of q, at worst, are those of exp(n ln zeta).
-    const Wide last = larger(magnitude(zeta[N]), magnitude(p[N]) * wide(r_.over_w + from));
-    const Wide fastest = p0 + Wide(0.5) * magnitude(p[1]) * fraction;
-    const Wide longest = smaller(fraction, Wide(longest_power) * zeta0 / (n * fastest));
-    const Wide tau = smaller(longest, eighth_root(wide(r_.tolerance + from) / last));
+    const Twin last = max(abs(zeta[N]), abs(p[N]) * load_twin(r_.over_w + from));
+    const Twin fastest = p0 + Twin(0.5) * abs(p[1]) * fraction;
+    const Twin longest = min(fraction, Twin(longest_power) * zeta0 / (n * fastest));
+    const Twin tau = min(longest, eighth_root(load_twin(r_.tolerance + from) / last));
 
-    Wide p1 = p[N], zeta1 = zeta[N], slip1 = slip[N];
+    Twin p1 = p[N], zeta1 = zeta[N], slip1 = slip[N];
 #pragma GCC unroll 16
     for (int k = N - 1; k >= 0; --k) {
       p1 = p1 * tau + p[k];
       zeta1 = zeta1 * tau + zeta[k];
       slip1 = slip1 * tau + slip[k];
     }
-    const Wide q1 = power_of(zeta1, n);
-    const Wide margin = tau * tau * (Wide(0.125) * magnitude(slope) + Wide(0.1875) * W * larger(p0, p1));
-    const unsigned live = wide(r_.live + from) > Wide(0.5);
-    const unsigned full = (wide(r_.saturated + from) >= Wide(1.0) - q1) & live;
-    const unsigned at_knot = (tau >= fraction) & live;
-    const unsigned slow = ~(smaller(p0, p1) > margin) & live;
-    put(r_.zeta + from, zeta1);
-    put(r_.p + from, p1);
-    put(r_.slip + from, slip1);
-    put(r_.q + from, q1);
-    put(r_.A + from, A + slope * tau);
-    put(r_.fraction + from, fraction - tau);
+    const Twin q1 = power_of(zeta1, n);
+    const Twin margin = tau * tau * (Twin(0.125) * abs(slope) + Twin(0.1875) * W * max(p0, p1));
+    const unsigned live = bits(load_twin(r_.live + from) > Twin(0.5));
+    const unsigned full = bits(load_twin(r_.saturated + from) >= Twin(1.0) - q1) & live;
+    const unsigned at_knot = bits(tau >= fraction) & live;
+    const unsigned slow = ~bits(min(p0, p1) > margin) & live;
+    store(r_.zeta + from, zeta1);
+    store(r_.p + from, p1);
+    store(r_.slip + from, slip1);
+    store(r_.q + from, q1);
+    store(r_.A + from, A + slope * tau);
+    store(r_.fraction + from, fraction - tau);
     unsigned stopped = 0;
     if (slow) {
       Terms terms;
 #pragma GCC unroll 16
       for (int k = 0; k <= N; ++k) {
-        put(terms.p[k], p[k]);
-        put(terms.zeta[k], zeta[k]);
-        put(terms.slip[k], slip[k]);
+        store(terms.p[k], p[k]);
+        store(terms.zeta[k], zeta[k]);
+        store(terms.slip[k], slip[k]);
       }
-      put(terms.tau, tau);
-      put(terms.A, A);
-      put(terms.fraction, fraction);
+      store(terms.tau, tau);
+      store(terms.A, A);
+      store(terms.fraction, fraction);
       for (unsigned rest = slow; rest; rest &= rest - 1) {
         const int lane = __builtin_ctz(rest);
         if (look_for_stop(from, lane, terms)) stopped |= 1U << lane;
@@ -187,7 +187,7 @@ class BoucWenPool {
       const auto next = lanes_[i].begin(cases_[sample]);
       number_[i] = sample;
       if (next == BoucWenLane::Next::yields) {
-        ++busy_[i / wide_lanes];
+        ++busy_[i / twin_lanes];
         r_.live[i] = 1;
         r_.n[i] = lanes_[i].n;
         r_.W[i] = lanes_[i].W;
@@ -206,13 +206,13 @@ class BoucWenPool {
   void take_last(int i) {
     int last = slots - 1;
     while (last > i && r_.live[last] == 0) --last;
-    if (last / wide_lanes == i / wide_lanes) return;
+    if (last / twin_lanes == i / twin_lanes) return;
     for (double* row : {r_.zeta, r_.p, r_.slip, r_.q, r_.A, r_.slope, r_.fraction, r_.W, r_.over_w, r_.n, r_.saturated,
                         r_.tolerance, r_.live})
       row[i] = row[last];
     lanes_[i] = lanes_[last];
     number_[i] = number_[last];
-    ++busy_[i / wide_lanes];
+    ++busy_[i / twin_lanes];
     leave(last);
   }
 
@@ -228,7 +228,7 @@ class BoucWenPool {
   }
 
   void leave(int i) {
-    --busy_[i / wide_lanes];
+    --busy_[i / twin_lanes];
     clear(i);
   }
 
@@ -245,7 +245,7 @@ class BoucWenPool {
   Rows r_;
   BoucWenLane lanes_[slots];
   std::size_t number_[slots] = {};
-  int busy_[slots / wide_lanes] = {};
+  int busy_[slots / twin_lanes] = {};
 };
 
 inline void bouc_wen_samples(const BatchCase* cases, std::size_t count, Response* responses, std::uint8_t* declined) {

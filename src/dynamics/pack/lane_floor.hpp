@@ -12,9 +12,8 @@ class LaneFloor {
   static constexpr int N = Motion::order, degree = Motion::degree;
 
  public:
-  LaneFloor(LawRows& rows, int first)
+  explicit LaneFloor(LawRows& rows)
       : rows_(rows),
-        first_(first),
         start_(number(Row::start)),
         offset_(number(Row::offset)),
         stretch_(number(Row::stretch)),
@@ -28,22 +27,21 @@ class LaneFloor {
   void look(Floor<Pack, N>& floor) {
     const Pack by = offset_ / stretch_, zero(0.0);
     Pack c[degree + 1];
-    for (int k = 0; k <= degree; ++k) c[k] = load(rows_.horizontal[k] + first_);
+    for (int k = 0; k <= degree; ++k) c[k] = load(rows_.horizontal[k]);
     if (degree == 1 || bits(by != zero))
 #pragma GCC unroll 8
       for (int i = 0; i < degree; ++i)
 #pragma GCC unroll 8
         for (int k = degree - 1; k >= i; --k) c[k] = c[k] + by * c[k + 1];
-    for (int k = 0; k <= degree; ++k) floor.a[k] = zero + load(rows_.unit[k] + first_) * c[k];
+    for (int k = 0; k <= degree; ++k) floor.a[k] = zero + load(rows_.unit[k]) * c[k];
     floor.a[0] = floor.a[0] + number(Row::push);
     floor.g[0] = number(Row::gravity);
     if constexpr (Motion::vertical_degree == 1) {
-      const Pack scale = number(Row::vertical_scale), v0 = load(rows_.vertical[0] + first_),
-                 v1 = load(rows_.vertical[1] + first_);
+      const Pack scale = number(Row::vertical_scale), v0 = load(rows_.vertical[0]), v1 = load(rows_.vertical[1]);
       floor.g[0] = zero + scale * (v0 + by * v1) + floor.g[0];
       floor.g[1] = zero + scale / stretch_ * v1;
     }
-    next_ = load(rows_.knot + first_) * stretch_;
+    next_ = load(rows_.knot) * stretch_;
     left_ = freestand::choose(over_, number(Row::end) - time(), next_ - start_ - offset_);
   }
 
@@ -61,7 +59,7 @@ class LaneFloor {
     offset_ = freestand::choose(mask, Pack(0.0), offset_);
     unsigned over = 0;
     for (; which; which &= which - 1) {
-      const int lane = __builtin_ctz(which), i = first_ + lane;
+      const int lane = __builtin_ctz(which), i = lane;
       rows_.steps[i] = --rows_.segments[i] > 0;
       if (rows_.segments[i] == 0) {
         over |= 1U << lane;
@@ -82,11 +80,10 @@ class LaneFloor {
   }
 
  private:
-  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)] + first_); }
-  void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)] + first_, x); }
+  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)]); }
+  void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)], x); }
 
   LawRows& rows_;
-  const int first_;
   Pack start_, offset_, next_, left_;
   const Pack stretch_;
   const PackMask over_;

@@ -11,7 +11,7 @@ namespace {
 
 class LaneHistory {
  public:
-  LaneHistory(LawRows& rows, int first) : rows_(rows), first_(first), next_(number(Row::next_output)) {}
+  explicit LaneHistory(LawRows& rows) : rows_(rows), next_(number(Row::next_output)) {}
 
   // Those of the lanes `free` that lie within their step of length h from `start` on. u: of the base's midpoint; at: the moment before.
   template <int N>
@@ -42,7 +42,7 @@ class LaneHistory {
   void rocked_on(unsigned struck, const Pack& struck_at, const Pack& pivot) {
     for (; struck; struck &= struck - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(struck));
-      History* history = rows_.history[first_ + static_cast<int>(lane)];
+      History* history = rows_.history[static_cast<int>(lane)];
       if (!history) continue;
       const double at = struck_at.get(lane), corner = pivot.get(lane);
       clear_upper_parts();
@@ -50,7 +50,7 @@ class LaneHistory {
     }
   }
 
-  void save() { store(rows_.numbers[static_cast<int>(Row::next_output)] + first_, next_); }
+  void save() { store(rows_.numbers[static_cast<int>(Row::next_output)], next_); }
 
  private:
   enum Value {
@@ -67,11 +67,11 @@ class LaneHistory {
     half_base,
     value_count
   };
-  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)] + first_); }
+  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)]); }
   void keep(Value which, const Pack& x) { store(value_[which], x); }
 
   void add(int lane) {
-    const int i = first_ + lane;
+    const int i = lane;
     const auto value = [&](Value which) { return value_[which][lane]; };
     clear_upper_parts();
     HistoryPoint& point = add_point(*rows_.history[i]);
@@ -94,7 +94,6 @@ class LaneHistory {
   }
 
   LawRows& rows_;
-  const int first_;
   Pack next_;
   alignas(64) double value_[value_count][pack_lanes];
   alignas(64) double after_[pack_lanes] = {};

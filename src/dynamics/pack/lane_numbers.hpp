@@ -10,11 +10,11 @@ namespace {
 
 class LaneNumbers {
  public:
-  LaneNumbers(const LawRows& rows, int first) : rows_(rows), first_(first) {}
-  Pack value(int node) const { return load(rows_.value[node] + first_); }
-  Pack shift(int node) const { return load(rows_.shift[node] + first_); }
+  explicit LaneNumbers(const LawRows& rows) : rows_(rows) {}
+  Pack value(int node) const { return load(rows_.value[node]); }
+  Pack shift(int node) const { return load(rows_.shift[node]); }
   Pack on_side(int kink, const Pack& positive, const Pack& negative) const {
-    return freestand::choose(load(rows_.side[kink] + first_) > Pack(0.0), positive, negative);
+    return freestand::choose(load(rows_.side[kink]) > Pack(0.0), positive, negative);
   }
   static Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) { return freestand::choose(mask, yes, no); }
   static bool any(const PackMask& mask) { return bits(mask); }
@@ -40,7 +40,6 @@ class LaneNumbers {
   }
 
   const LawRows& rows_;
-  int first_;
 };
 
 }  // namespace

@@ -14,10 +14,9 @@ namespace {
 
 class LawBlows {
  public:
-  LawBlows(LawRows& rows, int first)
+  explicit LawBlows(LawRows& rows)
       : rows_(rows),
         laws_(*rows.laws),
-        first_(first),
         corner_(number(Row::other_corner)),
         inertia_(number(Row::inertia)),
         inertia_there_(number(Row::other_inertia)),
@@ -77,7 +76,7 @@ class LawBlows {
     for (int k = 0; k < judged; ++k) sum = sum + (arc.fx[k] + arc.fy[k] + arc.alpha[k] + arc.foot[k]);
     sure = sure & (xsimd::abs(sum) < Pack(std::numeric_limits<double>::infinity()));
     for (int j = 0; j < laws_.tape.kink_count(); ++j)
-      sure = sure & (~(arc.kink[j][0] < zero) | (load(rows_.turns_yet[j] + first_) == zero));
+      sure = sure & (~(arc.kink[j][0] < zero) | (load(rows_.turns_yet[j]) == zero));
     return sure;
   }
 
@@ -90,7 +89,7 @@ class LawBlows {
       move(y, before);
     };
     for (int l = 0; l < pack_lanes; ++l) {
-      const int struck = lanes >> l & 1U, i = first_ + l;
+      const int struck = lanes >> l & 1U, i = l;
       rows_.blows[i] += struck;
       rows_.steps[i] += struck;
       rows_.told[i] += struck & static_cast<int>(told_ >> l & 1U);
@@ -127,14 +126,14 @@ class LawBlows {
  private:
   // Terms by which mode_logic.cpp mostly tells whether a mode stands.
   static constexpr int judged = 3;
-  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)] + first_); }
-  void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)] + first_, x); }
+  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)]); }
+  void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)], x); }
 
   // Neither the last event that is allowed, nor a step after which the sample looks whether it comes any further.
   PackMask has_room() const {
     alignas(64) double room[pack_lanes];
     for (int l = 0; l < pack_lanes; ++l) {
-      const int i = first_ + l;
+      const int i = l;
       room[l] = rows_.blows[i] + 1 < rows_.room[i] && rows_.steps[i] % StepWatch::watched != 0;
     }
     return load(room) > Pack(0.0);
@@ -171,7 +170,6 @@ class LawBlows {
 
   LawRows& rows_;
   const Laws& laws_;
-  const int first_;
   Pack corner_, inertia_, inertia_there_, kept_, kept_next_;  // the other corner; about this one, and that one
   Pack top_;           // height of the upper edge: one side meets its wall with it
   Pack omega_;         // after the blow

@@ -24,22 +24,21 @@ class LawMarchOf {
   using End = LawStep<1, Pack, LaneNumbers, Kind<turning, slipping, Motion>>;
 
  public:
-  LawMarchOf(LawRows& rows, int first)
+  explicit LawMarchOf(LawRows& rows)
       : rows_(rows),
         laws_(*rows.laws),
-        first_(first),
         straight_(laws_.straight(slipping)),
         grip_changes_(!slipping && laws_.grip_changes()),
         on_legs_(laws_.legs.frequency_radps > 0),
         base_moves_(slipping || on_legs_),
-        numbers_(rows, first),
-        corner_constants_(rows, first),
+        numbers_(rows),
+        cursor_(rows),
         floor_{Series<Pack, N>::zero(), Series<Pack, N>::zero()},
         there_{Series<Pack, 1>::zero(), Series<Pack, 1>::zero()},
         step_(laws_, here_, numbers_, {}, floor_),
         end_(laws_, to_, numbers_, {}, there_),
-        blows_(rows, first),
-        history_(rows, first),
+        blows_(rows),
+        history_(rows),
         stance_{turning,
                 slipping,
                 rows.can_slip,
@@ -56,24 +55,24 @@ class LawMarchOf {
 
   // Goes on until a lane stops: gaps in a pack cost more than going in and out of it.
   Stopped run(double* series) {
-    const int here = rows_.lanes - first_ < pack_lanes ? rows_.lanes - first_ : pack_lanes;
+    const int here = rows_.lanes < pack_lanes ? rows_.lanes : pack_lanes;
     const unsigned lanes_here = (1U << here) - 1;
     struck_ &= lanes_here;
     Stopped stopped{0, 0, 0};
     while (!(stopped.before_step | stopped.at_end | stopped.undecided)) {
-      corner_constants_.look(floor_);
+      cursor_.look(floor_);
       const Arc& arc = step_.run();
       h_ = reach_ = length_of_step(arc, lanes_here);
       PackMask sure = nothing_happens(arc, lanes_here);
       sure = sure & follows_laws(arc);
       if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
       stopped.undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) : 0;
-      history_.rocked_on(struck_ & ~stopped.undecided, corner_constants_.time(), here_.pivot);
+      history_.rocked_on(struck_ & ~stopped.undecided, cursor_.time(), here_.pivot);
       struck_ = stopped.undecided;
       const unsigned free = see_extremes(arc, bits(sure) & lanes_here & ~stopped.undecided);
       stopped.before_step = lanes_here & ~(free | stopped.undecided);
       for (unsigned open = stopped.before_step; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
-      history_.record(free, arc, u_, floor_, here_, laws_.lift >= 0, corner_constants_.time(), reach_);
+      history_.record(free, arc, u_, floor_, here_, laws_.lift >= 0, cursor_.time(), reach_);
       stopped.at_end = go_on(free);
     }
     save();
@@ -81,8 +80,8 @@ class LawMarchOf {
   }
 
  private:
-  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)] + first_); }
-  void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)] + first_, x); }
+  Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)]); }
+  void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)], x); }
   static Row state_row(int i) { return static_cast<Row>(static_cast<int>(Row::state) + i); }
 
   void load_constants(Standing<Pack>& at) {
@@ -108,7 +107,7 @@ class LawMarchOf {
     here_.path = number(Row::path);
     here_.deflection = number(Row::deflection);
     for (int i = 0; i < laws_.states; ++i) here_.states[i] = number(state_row(i));
-    here_.time = corner_constants_.time();
+    here_.time = cursor_.time();
     slip_ = number(Row::peak_slip);
     slip_right_ = number(Row::peak_slip_right);
     slip_left_ = number(Row::peak_slip_left);
@@ -116,7 +115,7 @@ class LawMarchOf {
     rotation_ = number(Row::peak_rotation);
     acceleration_ = number(Row::peak_acceleration);
     if (turning && !slipping)
-      for (int l = 0; l < pack_lanes; ++l) struck_ |= static_cast<unsigned>(rows_.struck[first_ + l]) << l;
+      for (int l = 0; l < pack_lanes; ++l) struck_ |= static_cast<unsigned>(rows_.struck[l]) << l;
   }
 
   void save() {
@@ -129,7 +128,7 @@ class LawMarchOf {
     keep(Row::deflection, at.deflection);
     keep(Row::still_since, at.still_since);
     for (int i = 0; i < laws_.states; ++i) keep(state_row(i), at.states[i]);
-    corner_constants_.save();
+    cursor_.save();
     history_.save();
     keep(Row::peak_slip, slip_);
     keep(Row::peak_slip_right, slip_right_);
@@ -139,12 +138,12 @@ class LawMarchOf {
     keep(Row::peak_acceleration, acceleration_);
     if (!turning || slipping) return;
     blows_.save(at);
-    for (int l = 0; l < pack_lanes; ++l) rows_.struck[first_ + l] = struck_ >> l & 1U;
+    for (int l = 0; l < pack_lanes; ++l) rows_.struck[l] = struck_ >> l & 1U;
   }
 
   // As TaylorIntegrator's.
   Pack length_of_step(const Arc& arc, unsigned lanes_here) const {
-    const Pack longest = number(Row::longest_step_s), whole = xsimd::min(corner_constants_.left(), longest);
+    const Pack longest = number(Row::longest_step_s), whole = xsimd::min(cursor_.left(), longest);
     Pack last(0.0);
     const auto neglects = [&](const Series<Pack, N>& y, Row over) {
       last = xsimd::max(last, xsimd::abs(y[N]) * number(over));
@@ -177,8 +176,7 @@ class LawMarchOf {
   PackMask nothing_happens(const Arc& arc, unsigned lanes_here) {
     strikes_ = h_ < h_;
     PackMask sure = h_ > Pack(shortest_step) * number(Row::longest_step_s);
-    if (const unsigned within = lanes_here & ~corner_constants_.to_knot(h_))
-      sure = sure & lanes_of(~(within & watched()));
+    if (const unsigned within = lanes_here & ~cursor_.to_knot(h_)) sure = sure & lanes_of(~(within & watched()));
     if (slipping && laws_.friction >= 0) sure = sure & (arc.friction >= Pack(0.0));
     visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, N>& y) {
       PackMask positive = surely_positive(y, h_);
@@ -195,7 +193,7 @@ class LawMarchOf {
     });
     if (laws_.walls.any()) sure = sure & clear_of_walls(arc);
     for (int j = 0; j < laws_.tape.kink_count(); ++j)
-      sure = sure & (surely_positive(arc.kink[j], h_) | (load(rows_.turns_yet[j] + first_) == Pack(0.0)));
+      sure = sure & (surely_positive(arc.kink[j], h_) | (load(rows_.turns_yet[j]) == Pack(0.0)));
     return sure;
   }
 
@@ -284,20 +282,20 @@ class LawMarchOf {
 
   // Those that are free go to the end of their step; bit l: lane l is at the end of its motion, or of its time.
   unsigned go_on(unsigned free) {
-    const unsigned struck = bits(strikes_) & free, at_knot = corner_constants_.to_knot(h_) & free & ~struck;
+    const unsigned struck = bits(strikes_) & free, at_knot = cursor_.to_knot(h_) & free & ~struck;
     const PackMask goes = lanes_of(free);
-    corner_constants_.advance(goes, reach_);
-    unsigned at_end = at_knot ? corner_constants_.next_segment(at_knot, lanes_of(at_knot)) : 0;
+    cursor_.advance(goes, reach_);
+    unsigned at_end = at_knot ? cursor_.next_segment(at_knot, lanes_of(at_knot)) : 0;
     const unsigned within = free & ~at_knot & ~struck;
     if (within) {
-      const unsigned ends = corner_constants_.at_end() & within;
+      const unsigned ends = cursor_.at_end() & within;
       at_end |= ends;
-      for (unsigned open = within & ~ends; open; open &= open - 1) ++rows_.steps[first_ + __builtin_ctz(open)];
+      for (unsigned open = within & ~ends; open; open &= open - 1) ++rows_.steps[__builtin_ctz(open)];
     }
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
     Standing<Pack>&at = here_, &to = to_;
     if (struck) {
-      at.still_since = freestand::choose(lanes_of(struck), corner_constants_.time(), at.still_since);
+      at.still_since = freestand::choose(lanes_of(struck), cursor_.time(), at.still_since);
       blows_.stand(lanes_of(struck), struck, to);
       at.body.c = to.body.c;
       at.half_base = to.half_base;
@@ -313,7 +311,7 @@ class LawMarchOf {
     move(at.path, to.path);
     move(at.deflection, to.deflection);
     for (int i = 0; i < laws_.states; ++i) move(at.states[i], to.states[i]);
-    at.time = corner_constants_.time();
+    at.time = cursor_.time();
     move(slip_, new_slip_);
     if (rows_.slip_by_side) {
       move(slip_right_, new_slip_right_);
@@ -328,7 +326,7 @@ class LawMarchOf {
   // Those that look before their next step whether they come any further (StepWatch::watched).
   unsigned watched() const {
     unsigned which = 0;
-    for (int l = 0; l < pack_lanes; ++l) which |= unsigned{rows_.steps[first_ + l] % StepWatch::watched == 0} << l;
+    for (int l = 0; l < pack_lanes; ++l) which |= unsigned{rows_.steps[l] % StepWatch::watched == 0} << l;
     return which;
   }
 
@@ -348,7 +346,6 @@ class LawMarchOf {
 
   LawRows& rows_;
   const Laws& laws_;
-  const int first_;
   const bool straight_, grip_changes_, on_legs_;
   const bool base_moves_;  // the point of contact, or the base over legs
   const LaneNumbers numbers_;
@@ -358,7 +355,7 @@ class LawMarchOf {
   Pack slip_, slip_right_, slip_left_, slid_, rotation_, acceleration_;
   Pack new_slip_, new_slip_right_, new_slip_left_, new_slid_, new_rotation_, new_acceleration_;
   Standing<Pack> here_, to_;
-  LaneFloor<Motion> corner_constants_;
+  LaneFloor<Motion> cursor_;
   Floor<Pack, N> floor_;
   Floor<Pack, 1> there_;
   Step step_;
@@ -370,8 +367,8 @@ class LawMarchOf {
 };
 
 template <class Motion, bool turning, bool slipping>
-Stopped law_march(LawRows& rows, int first, double* series) {
-  const Stopped stopped = LawMarchOf<Motion, turning, slipping>(rows, first).run(series);
+Stopped law_march(LawRows& rows, double* series) {
+  const Stopped stopped = LawMarchOf<Motion, turning, slipping>(rows).run(series);
   clear_upper_parts();
   return stopped;
 }
