@@ -95,6 +95,18 @@ TEST(Decide, AnEffectWithOddNumbersGivesWayToOneThatMissesTheTestsLeftOutByLess)
   EXPECT_NE(d.sentences.front().find("but for rate_weakening"), std::string::npos) << d.sentences.front();
 }
 
+// It misses the tests left out by less, but all of them by more than the base where the floor's noise is allowed for. It was told as one
+// "with more effects", as pairs are.
+TEST(Decide, OnlyWhatHasMoreEffectsIsSaidToHaveMore) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  Candidate ahead = candidate(bench, {"rate_weakening"}, 1.0, 1.5);
+  ahead.misfit = 10 * samples;
+  const Diagnosis d = decided_among(bench, {ahead, candidate(bench, {"static_friction"}, 1.05, 1.0)});
+  EXPECT_EQ(d.effects, std::vector<std::string>{"static_friction"});
+  EXPECT_NE(d.sentences[0].find("rate_weakening (1.00), whose lead may be chance"), std::string::npos) << d.sentences[0];
+}
+
 // It is worse on the tests left out, but by no more than its own data would make it: "every other effect misses by more,
 // beyond chance" is not to be said of it.
 TEST(Decide, OddNumbersThatDoAsWellByChanceAreTold) {

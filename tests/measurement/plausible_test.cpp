@@ -20,6 +20,27 @@ using testing::Not;
 using test::examined;
 using test::sliding_cabinet;
 
+TEST(Quality, NoSlipRemainsThatWasNotReached) {
+  const Dataset data = test::made_dataset(sliding_cabinet(0.2));
+  const auto said = [&](double remains) {
+    Dataset read = data;
+    read.noise.slip_m = 1e-3;
+    for (measurement::Test& one : read.tests) one.slip_m.clear(), one.peaks.peak_slip_m = 0.05;
+    read.tests[1].peaks.residual_slip_m = remains;
+    return doubts(Bench(read, 0));
+  };
+  EXPECT_THAT(said(0.049).sentences, Not(Contains(HasSubstr("residual_slip_m"))));
+  EXPECT_THAT(said(-0.054).sentences,
+              Not(Contains(HasSubstr("residual_slip_m"))));  // by four deviations of one reading
+  for (const double remains : {0.06, -0.06}) {
+    const Doubts found = said(remains);
+    EXPECT_THAT(found.sentences,
+                Contains("residual_slip_m of t2 is 0.01 m more than peak_slip_m, and no slip remains that was not "
+                         "reached: are the two columns the right way round?"));
+    EXPECT_EQ(found.spoilt_tests, 0U);  // both may be read by hand
+  }
+}
+
 // What a channel of one test cannot be, whatever the friction.
 TEST(Quality, AChannelOfOneTest) {
   Specimen rocks = sliding_cabinet(0.9);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/shown_text.hpp"
 #include "base/units.hpp"
@@ -78,8 +79,11 @@ class Doubter {
   }
 
   void response(const Test& test) {
-    const double slip =
-        std::max({greatest(test.slip_m), test.peaks.peak_slip_m.value_or(0), test.peaks.residual_slip_m.value_or(0)});
+    const double peak = test.peaks.peak_slip_m.value_or(0), remains = std::abs(test.peaks.residual_slip_m.value_or(0));
+    const double slip = std::max({greatest(test.slip_m), peak, remains});
+    // Of two readings of one sensor.
+    if (test.peaks.peak_slip_m && remains > peak + 3 * std::numbers::sqrt2 * bench_.noise(Channel::slip))
+      remaining_.add(test, remains - peak);
     const double rotation = std::max(greatest(test.rotation_rad), test.peaks.peak_rotation_rad.value_or(0));
     if (test.has_history() && test.dt_s > longest_step_s) steps_.add(test, test.dt_s);
     if (slip > longest_slip_m) slips_.add(test, slip);
@@ -163,6 +167,9 @@ class Doubter {
     };
     about(steps_, "{} is sampled every {:.2g} s", ": is its time in seconds?");
     about(slips_, "the slip of {} reaches {:.3g} m", ": is slip_m in metres?");
+    about(remaining_,
+          "residual_slip_m of {} is {:.2g} m more than peak_slip_m, and no slip remains that was not reached",
+          ": are the two columns the right way round?", false);
     about(rotations_, "the rotation of {} reaches {:.3g} rad", ": is rotation_rad in radians?");
     about(strong_, "the floor of {} reaches {:.3g} g", ": is floor_acceleration_mps2 in m/s2?");
     about(weak_, "the block of {} moves more than a floor that reaches {:.2g} g can make them",
@@ -248,8 +255,8 @@ class Doubter {
   const Bench& bench_;
   const double without_slip_;
   Doubts out_;
-  Seen steps_, slips_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_, same_floors_,
-      same_peaks_, turned_, shares_;
+  Seen steps_, slips_, remaining_, rotations_, strong_, weak_, early_, late_slips_, late_rotations_, floors_,
+      same_floors_, same_peaks_, turned_, shares_;
   Seen frozen_[channel_count], copied_[channel_count];
   std::vector<std::string> fast_;
 };

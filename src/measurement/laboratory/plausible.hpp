@@ -20,7 +20,8 @@ std::string listed(const std::vector<std::string>& ids);
 std::string held_out_note(const Dataset&, const std::vector<std::string>& ids);
 
 // Of every test: sizes above 50 m; steps above 0.1 s, between which a floor of 5 Hz turns; slips above 5 m and rotations above 1.8 rad
-// (other units); a floor above 10 g, or one under which the block moves though it stays below 0.02 g, or three times as fast as the floor's
+// (other units); a slip that remains and is larger than the peak, by more than three standard deviations of the difference of two readings, which
+// spoils nothing; a floor above 10 g, or one under which the block moves though it stays below 0.02 g, or three times as fast as the floor's
 // velocities differ (other units, or a dead channel; from 1.5 times on it is said, and spoils nothing); a floor that is cut off; slips, rotations
 // and floors with an offset (plausible_offsets.hpp), which spoils the test from eight times the noise, or 2 % of the floor's peak, on; channels
 // that freeze, are another test's, are mirrored or in another unit (plausible_channels.hpp). Of all calibration tests together: a sensor that

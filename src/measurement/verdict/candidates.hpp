@@ -23,7 +23,9 @@ inline constexpr const char
     *odd_numbers = "with numbers that are not met in practice",
     *needless_effects = "with more effects, whose gain may be chance",
     *no_closer = "with numbers that bring the fit to all tests no closer, the floor's noise allowed for",
+    *chance_lead = "whose lead may be chance",
     *stands_for_tolerances = "with more effects, whose gain may be that of what is stated, off within its tolerances",
+    *lead_of_tolerances = "whose lead may be that of what is stated, off within its tolerances",
     *further_off = "which misses all tests by more, beyond chance, where what is stated is off within its tolerances",
     *leaves_more = "which leaves more than chance even where what is stated is off within its tolerances",
     *by_luck = "by a history that the floor's noise alone turns elsewhere";

@@ -59,14 +59,16 @@ class Decision : CandidateComparison {
     std::map<std::string, std::vector<std::string>> told;
     for (Candidate& c : d_.candidates) {
       if (c.rival || !fitted_to_the_end(c) || c.effects == best.effects) continue;
-      const bool odd = !c.practical && c.effects.size() <= best.effects.size() && !brings_nothing(c);
+      const bool more = c.effects.size() > best.effects.size();
+      const bool odd = !c.practical && !more && !brings_nothing(c);
       if (!(odd && as_good(best, c)) && !is_ahead(c, best)) continue;
       c.remark = odd                       ? odd_numbers
                  : brings_nothing(c)       ? no_closer
                  : was_luck(c)             ? by_luck
                  : refuted(best, c)        ? enough(c) ? further_off : leaves_more
-                 : within_tolerances(best) ? stands_for_tolerances
-                                           : needless_effects;
+                 : within_tolerances(best) ? more ? stands_for_tolerances : lead_of_tolerances
+                 : more                    ? needless_effects
+                                           : chance_lead;
       told[c.remark].push_back(fmt::format("{} ({})", joined(c.effects), three_digits(left_out(c))));
     }
     std::string text;

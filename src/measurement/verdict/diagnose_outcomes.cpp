@@ -176,7 +176,7 @@ class OutcomeDiagnoser {
   void name_those_ahead(const Candidate& chosen) {
     for (Candidate& c : out_.candidates) {
       if (!c.visible || !c.fit.left_out_refitted || c.rival || left_out(c) >= left_out(chosen)) continue;
-      c.remark = c.practical ? needless_effects : odd_numbers;
+      c.remark = !c.practical ? odd_numbers : c.effects.size() > chosen.effects.size() ? needless_effects : chance_lead;
       say(fmt::format("{} leaves a left-out score of {:.4f}, {}", label(c), left_out(c), c.remark));
     }
   }
