@@ -351,14 +351,21 @@ class Importer {
   }
 
   void tell_noise() {
-    const auto tell_one = [&](double noise, double given, const char* key) {
-      if (given == 0 && noise > 0)
-        say(fmt::format("noise.{} is not given: {:.2g} by the quiet parts; check it against the sensor's sheet", key,
-                        noise));
+    const auto tell_one = [&](const std::vector<double> measurement::Test::*channel, double noise, double given,
+                              const char* key) {
+      if (given > 0 || std::ranges::all_of(tests_, [&](const TestOfLab& t) { return (t.test.*channel).empty(); }))
+        return;
+      say(noise > 0
+              ? fmt::format("noise.{} is not given: {:.2g} by the quiet parts; check it against the sensor's sheet",
+                            key, noise)
+              : fmt::format("noise.{} is not given, and {} does not scatter in any test: did its sensor live? Give "
+                            "its noise, without which nothing can be compared with it",
+                            key, key));
     };
-    tell_one(noise_.slip_m, lab_.noise.slip_m, "slip_m");
-    tell_one(noise_.rotation_rad, lab_.noise.rotation_rad, "rotation_rad");
-    tell_one(noise_.block_acceleration_mps2, lab_.noise.block_acceleration_mps2, "block_acceleration_mps2");
+    tell_one(&measurement::Test::slip_m, noise_.slip_m, lab_.noise.slip_m, "slip_m");
+    tell_one(&measurement::Test::rotation_rad, noise_.rotation_rad, lab_.noise.rotation_rad, "rotation_rad");
+    tell_one(&measurement::Test::block_acceleration_mps2, noise_.block_acceleration_mps2,
+             lab_.noise.block_acceleration_mps2, "block_acceleration_mps2");
     noise_.floor_acceleration_mps2 = lab_.noise.floor_acceleration_mps2;
     if (slow_floor_spectrum_ > 0) {
       noise_.floor_acceleration_mps2 = std::sqrt(slow_floor_spectrum_ / slow_floor_step_s_);

@@ -20,13 +20,14 @@ std::string dataset_text(const Laboratory& lab, const measurement::Noise& noise_
   const double step_s = tests.front().test.dt_s;
   if (std::ranges::all_of(tests, [&](const TestOfLab& t) { return t.test.dt_s == step_s; }))
     text += fmt::format("sampling_dt_s: {}\n", step_s);
-  text += "noise:\n";
+  std::string noises;
   const auto noise = [&](const char* key, double value) {
-    if (value > 0) text += fmt::format("  {}: {:.4g}\n", key, value);
+    if (value > 0) noises += fmt::format("  {}: {:.4g}\n", key, value);
   };
   noise("slip_m", noise_of_set.slip_m), noise("rotation_rad", noise_of_set.rotation_rad);
   noise("block_acceleration_mps2", noise_of_set.block_acceleration_mps2);
   noise("floor_acceleration_mps2", noise_of_set.floor_acceleration_mps2);
+  if (!noises.empty()) text += "noise:\n" + noises;
   text +=
       fmt::format("tolerance: {{width: {}, centre_height: {}, floor_gain: {}, clock_s: {}}}\ntests:\n",
                   lab.tolerance.width, lab.tolerance.centre_height, lab.tolerance.floor_gain, lab.tolerance.clock_s);

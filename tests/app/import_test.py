@@ -173,6 +173,21 @@ class Import(InFolder):
         told = self.imported().stdout
         self.assertRegex(told, r"noise.slip_m is not given: 0.000[23]\d* by the quiet parts")
 
+    def test_a_sensor_without_noise_is_told_and_may_be_given_one(self):
+        """A block that never moved, as zeros, below a floor that was computed."""
+        for number, name in enumerate(self.truth):
+            floor = [f"{0.005 * i:.4f}\t{0.01 * (number + 1) * math.sin(0.01 * i) if 400 < i < 1000 else 0:.9f}\t20" for i in range(1600)]
+            self.write(f"table {name}.txt", "Time (s)\tACC1\tTemp\n" + "\n".join(floor) + "\n")
+            self.write(f"block_{name}.csv", "t_ms;LVDT 1;\n" + "\n".join(f"{comma(5 * i, 3)};0,0;" for i in range(1600)) + "\n")
+        text = self.lab.read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace("noise: {slip_m: 0.000291}\n", ""))
+        self.assertIn("noise.slip_m is not given, and slip_m does not scatter in any test", self.imported().stdout)
+        study = self.write("study.yaml", "measurements: set/dataset.yaml\nmodel: {friction: {mu: {calibrate: [0.03, 1.2]}}}\n")
+        self.fail_with(3, ["compare", study, "-o", self.folder / "compared", "--quiet"], "noise.slip_m is missing")
+        self.write("lab.yaml", text)
+        self.imported("set", "--overwrite")
+        self.succeed(["compare", study, "-o", self.folder / "compared", "--quiet"])
+
     def test_what_was_taken_for_granted_is_told(self):
         """Rows that are missing, a unit that nobody gave, one that is another than the column's name says, and clocks in step."""
         text = self.lab.read_text(encoding="utf-8")

@@ -46,7 +46,7 @@ def _picture(sweep, edp):
     left_out = sweep.centre.size - n
     style.headline(fig, finding, f"Counted (black) against fitted lognormal (blue) in each bin of {im}. p: parameters fitted to the "
                                  "same data; p*: textbook value, as older studies use it. Shaded: fails."
-                   + (f" Not shown: {words.plural(left_out, 'bin')} in which too few moved." if left_out else ""))
+                   + (f" Not shown: {words.plural(left_out, 'bin')} without a fitted lognormal." if left_out else ""))
     return Picture(f"goodness_{edp.name}", fig, finding, CAPTION.format(symbol=symbol), "sweep", edp.name)
 
 
