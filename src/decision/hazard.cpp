@@ -71,6 +71,13 @@ Columns columns_of(const Line& header, const std::string& file, const std::vecto
     if (!column && name.find(';') != std::string::npos)
       refuse(file, header.number,
              "cells are parted by semicolons (commas part them here, and decimals have points): replace them");
+    if (!column && curve.measure.size() > 0)
+      refuse(file, header.number,
+             fmt::format(
+                 "column {} is unknown (beside {} a hazard curve has annual_rate, how often a year it is exceeded): "
+                 "name it so if that is what it holds; from a probability p in N years it is -ln(1 - p)/N, from a "
+                 "return period T 1/T",
+                 name.empty() ? "without a name" : shown(name), curve.measure));
     if (!column)
       refuse(file, header.number,
              fmt::format("column {} is unknown (a hazard curve has an intensity and annual_rate): name the intensity "

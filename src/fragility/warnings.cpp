@@ -41,15 +41,16 @@ void about_outcomes(const Tally& tally, const Result& result, std::vector<std::s
                                 tally.options().edps[e].name));
 }
 
-constexpr const char *one_record = "There is only one record", *few_records = "The samples come from only ";
+constexpr const char *one_record = "The motions are those of only one record, or of one group",
+                     *few_records = "The samples come from only ";
 
 void about_motions(const Tally& tally, const Result& result, std::vector<std::string>& out) {
   const int records = tally.groups().records(), motions = std::min(records, result.motions);
   if (records == 1)
-    out.push_back(
-        fmt::format("{}: the bands say how well the answer for this record is known, and nothing about how much other "
-                    "records would differ.",
-                    one_record));
+    out.push_back(fmt::format(
+        "{}: the bands say how well the answer for these motions is known, and nothing about how much those of "
+        "another would differ.",
+        one_record));
   else if (records > 0 && motions < few_motions)
     out.push_back(fmt::format("{}{} motions: bands from resampling so few are rough.", few_records, motions));
 }

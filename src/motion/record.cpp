@@ -31,7 +31,7 @@ const RecordFormat& choose_format(const RecordText& text, const std::string& wan
     throw Error(fmt::format("no record format \"{}\" (the formats are {}): name one of these", wanted, format_names()));
   text.fail(0, fmt::format("no known record format (the formats are {}): convert the record to one of these, for "
                            "example to csv with the "
-                           "columns time_s and floor_acceleration_mps2",
+                           "columns time_s and floor_acceleration_mps2; a table of records has a column named file",
                            format_names()));
 }
 

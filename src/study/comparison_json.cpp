@@ -85,7 +85,8 @@ Json test_json(const Bench& bench, const TestComparison& t) {
                                 {"autocorrelation", c.autocorrelation}});
   if (test.peaks.overturned) {
     json["overturned_measured"] = *test.peaks.overturned;
-    json["overturned_probability"] = t.error.probability;
+    const bool falls = t.model.response.outcome == Outcome::overturned;
+    json["overturned_probability"] = kind(test) == Kind::outcome ? t.error.probability : falls ? 1.0 : 0.0;
   }
   return json;
 }

@@ -114,7 +114,7 @@ TEST(Findings, AModelThatOnlySlidesAgainstOverturning) {
   data.tests[0].peaks.overturned = false;
   EXPECT_THAT(said(data, fixed(0.2, Model::slide)),
               Contains("all 2 calibration tests stood: they bound the model from one side only, and one that never "
-                       "overturns fits them as well; add tests that overturned"));
+                       "overturns misses none of them; add tests that overturned"));
 }
 
 // Five calibration tests that end too far to one side are what chance does once in 16: with a sixth, whatever its role,

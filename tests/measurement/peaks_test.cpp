@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "effects/effects.hpp"
+#include "measurement/fit/least_squares.hpp"
 #include "measurement/fit/model_fit.hpp"
 #include "measurement/fit/posterior.hpp"
 #include "measurement/laboratory/plausible.hpp"
@@ -42,6 +43,29 @@ TestError error_at(const Bench& bench, std::size_t i, double friction) {
   ModelSpec model = test::free_friction();
   model.model = Model::slide;
   return test_error(bench, i, model, Values{friction});
+}
+
+// One peak and one number: nobody knows by what peaks scatter, and the number may be any. It was told to four digits.
+TEST(Peaks, OneTestThatTellsLeavesANumberOpen) {
+  Dataset data = made_peaks();
+  data.tests.erase(data.tests.begin(), data.tests.begin() + 2);  // one slides, two stand
+  const Bench bench(data, 0);
+  ModelFit fit{.model = test::free_friction(), .x = {mu}, .score = 1e-9, .intervals = {{mu, mu}}};
+  fit.model.model = Model::slide;
+  widen_by_score(bench, {&fit}, run_here);
+  EXPECT_EQ(fit.intervals[0].lower, fit.model.free[0].lower);
+  EXPECT_EQ(fit.intervals[0].upper, fit.model.free[0].upper);
+}
+
+TEST(Peaks, NoErrorIsInNoiseUnitsWhereNoNoiseIsStated) {
+  Dataset data = made_peaks();
+  for (const bool fell : {true, false}) {
+    data.tests[0].peaks.overturned = fell;
+    EXPECT_TRUE(std::isnan(error_at(Bench(data, 0), 0, mu).noise_units)) << fell;
+  }
+  data.noise.slip_m = 1e-4;
+  data.tests[0].peaks.overturned = true;  // the model only slides
+  EXPECT_EQ(error_at(Bench(data, 0), 0, mu).noise_units, failed_error);
 }
 
 // A test that stands twice under two names is told of; tests that stood still are alike and are not.

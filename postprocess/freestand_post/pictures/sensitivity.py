@@ -66,10 +66,10 @@ def _lack(answers):
     """What a panel lacks to 1 is of parameters together, where it is more than its error."""
     lacking = [answer for answer in answers if answer.together[3] < 1]
     if not lacking:
-        return "What the bars of a panel lack to 1 is no more than its error."
+        return "What the bars of a panel shown here lack to 1 is no more than its error."
     which = "a panel" if len(lacking) == len(answers) else words.listing([answer.title for answer in lacking])
     return (f"What the bars of {which} lack to 1 is due to parameters that act together"
-            + ("." if len(lacking) == len(answers) else "; of the others it is no more than its error."))
+            + ("." if len(lacking) == len(answers) else "; of the other panels it is no more than its error."))
 
 
 def _wrapped(text):

@@ -46,7 +46,7 @@ def _picture(sweep, edp):
     _contours(ax, sweep, middle, p)
     marked = np.flatnonzero(np.isin(edp.bins["status"], (REJECTED, UNPROVEN)))
     counted, tested = marked.size, int(np.isin(edp.bins["status"], TESTED).sum())
-    for i in marked if counted < tested else ():
+    for i in marked:
         ax.plot(sweep.centre[i], 1.02, "v", ms=5, color=style.FAIL, transform=ax.get_xaxis_transform(), clip_on=False)
     _bar(fig, ax, mesh, symbol)
     finding = _finding(sweep, edp, symbol, im, p, middle)

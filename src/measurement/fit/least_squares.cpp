@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 
@@ -232,16 +233,20 @@ void widen_intervals(const Objective& total, double rise, ModelFit& fit, const J
 
 constexpr double chi_square_95 = 3.84;  // of one degree of freedom
 
-// Of a model that is far from the noise, or of peaks: peaks scatter by what the fit leaves of them, and of histories no
-// likelihood is known: a twentieth of one test's squared error counts.
+// Of a model that is far from the noise, or of peaks: peaks scatter by what the fit leaves of them, where tests that tell something are
+// more than the numbers; else nobody knows by what, and any number may be. Of histories no likelihood is known: a twentieth of one test's
+// squared error counts.
 struct ByScore {
   Objective total;
   double rise;
   ByScore(const Bench& bench, const Tests& tests, const ModelFit& fit) {
-    const auto n = static_cast<double>(tests.size()), known = static_cast<double>(fit.x.size());
-    const bool histories = kind(bench.test(tests.front())) == Kind::history;
+    const auto n = static_cast<double>(tests.size());
     total = [&bench, &tests, &fit, n](std::span<const double> x) { return n * mean_score(bench, tests, fit.model, x); };
-    rise = std::max(histories ? 0.05 : chi_square_95 * n * fit.score / std::max(n - known, 1.0), 1e-9);
+    rise = 0.05;
+    if (kind(bench.test(tests.front())) == Kind::history) return;
+    const double freedom = telling_tests(bench, tests, fit.model, fit.x).count() - static_cast<double>(fit.x.size());
+    rise =
+        freedom < 1 ? std::numeric_limits<double>::infinity() : std::max(chi_square_95 * n * fit.score / freedom, 1e-9);
   }
 };
 

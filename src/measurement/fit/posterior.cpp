@@ -138,9 +138,7 @@ Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
     for (const Values& answer : answers) G.push_back(answer[0]);
     return G;
   };
-  TellingTests telling;
-  for (const std::size_t i : tests) telling.add(ln_ratios(bench, i, predict(fit.model, bench.test(i), fit.x)));
-  out.freedom = telling.count() - p;
+  out.freedom = telling_tests(bench, tests, fit.model, fit.x).count() - p;
   measure_discrepancy(bench, fit, tests, out);
   if (out.freedom < 1 || fit.x.empty()) return out;
   out.dispersion = std::sqrt(misfits({fit.x}).front() / out.freedom);

@@ -119,12 +119,24 @@ bool parted_by_a_fall(const Test& test, const Prediction& prediction) {
   return test.peaks.overturned && (*test.peaks.overturned != falls(prediction));
 }
 
+bool noise_is_stated(const Bench& bench) {
+  for (int c = 0; c < channel_count; ++c)
+    if (bench.noise(static_cast<Channel>(c)) > 0) return true;
+  return false;
+}
+
 TestError peak_error(const Bench& bench, std::size_t i, const Prediction& prediction) {
   const Test& test = bench.test(i);
   TestError error;
   for (const double ratio : ln_ratios(bench, i, prediction)) error.score += ratio * ratio;
-  if (parted_by_a_fall(test, prediction)) return {.score = error.score, .noise_units = failed_error, .relative = 1};
-  if (fell(test)) return error;
+  if (parted_by_a_fall(test, prediction) || fell(test)) {
+    const bool parted = parted_by_a_fall(test, prediction), stated = noise_is_stated(bench);
+    return {.score = error.score,
+            .noise_units = !stated  ? no_score
+                           : parted ? failed_error
+                                    : 0,
+            .relative = parted * 1.0};
+  }
   const auto pairs = peak_pairs(bench, test, prediction.response);
   const auto n = static_cast<double>(std::max<std::size_t>(pairs.size(), 1));
   double square = 0;
@@ -157,6 +169,13 @@ void TellingTests::add(std::span<const double> ln_ratios) {
   const auto telling = std::ranges::count_if(ln_ratios, [](double ratio) { return ratio != 0; });
   const double share = static_cast<double>(telling) / static_cast<double>(ln_ratios.size());
   shares += share, squares += share * share;
+}
+
+TellingTests telling_tests(const Bench& bench, const std::vector<std::size_t>& tests, const ModelSpec& model,
+                           const Values& x) {
+  TellingTests telling;
+  for (const std::size_t i : tests) telling.add(ln_ratios(bench, i, predict(model, bench.test(i), x)));
+  return telling;
 }
 
 bool fell(const Test& test) { return test.peaks.overturned.value_or(false); }

@@ -52,6 +52,7 @@ struct TellingTests {
   void add(std::span<const double> ln_ratios);
   double count() const { return squares > 0 ? shares * shares / squares : 0; }  // of as many that say equally much
 };
+TellingTests telling_tests(const Bench&, const std::vector<std::size_t>& tests, const ModelSpec&, const Values& x);
 
 // Does a channel of the test's histories, or any of slip and rotation, exceed eight times its noise?
 bool moves(const Bench&, std::size_t test, Channel);

@@ -250,7 +250,7 @@ class Findings {
     }
     const char* whose = role == Role::calibration ? "calibration" : "held-out";
     if (role == Role::calibration && (overturned == 0 || overturned == all.size()))
-      say("all {} calibration tests {}: they bound the model from one side only, and one that {} fits them as well; "
+      say("all {} calibration tests {}: they bound the model from one side only, and one that {} misses none of them; "
           "add "
           "tests that {}",
           all.size(), overturned ? "overturned" : "stood", overturned ? "always overturns" : "never overturns",

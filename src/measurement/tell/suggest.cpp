@@ -33,8 +33,8 @@ std::vector<Trial> trials(double mu) {
 
 // The test as it would be, without measured values; histories of zeros say which channels there are.
 Test planned(const Bench& bench, const Trial& trial) {
-  Test test = bench.test(tests_of(bench.data(), Role::calibration).front());
-  const double dt = test.dt_s > 0 ? test.dt_s : 0.005;
+  const Test& first = bench.test(tests_of(bench.data(), Role::calibration).front());
+  const double dt = first.dt_s > 0 ? first.dt_s : 0.005;
   const motion::Pulse pulse = motion::find_pulse(trial.pulse);
   const double duration = pulse.duration * trial.period_s + tail_s;
   const auto n = static_cast<std::size_t>(duration / dt);
@@ -45,11 +45,12 @@ Test planned(const Bench& bench, const Trial& trial) {
     floor.push_back(t < pulse.duration ? peak * pulse.at(t).acceleration : 0);
     vertical.push_back(fast < pulse.duration ? peak * trial.vertical_share * pulse.at(fast).acceleration : 0);
   }
-  read_floor(test, {"planned", dt, floor, vertical});
+  Test test;
+  test.specimen = first.specimen;
   test.dt_s = dt;
+  read_floor(test, {"planned", dt, floor, vertical});
   test.slip_m.assign(n, 0);
   test.rotation_rad.assign(bench.noise(Channel::rotation) > 0 ? n : 0, 0);
-  test.block_acceleration_mps2.clear();
   return test;
 }
 

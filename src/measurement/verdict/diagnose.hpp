@@ -47,14 +47,14 @@ inline constexpr double unjudged = std::numeric_limits<double>::quiet_NaN();
 struct Candidate {
   std::vector<std::string> effects;  // joined to the base, in order
   ModelFit fit;
-  bool visible = true;                       // the data can see it
-  bool practical = true;                     // its parameters lie where it is met
-  std::vector<double> misfits = {};          // G, of each test left out
-  double misfit = unjudged;                  // their sum; nan: not judged
-  std::vector<double> misfits_of_fit = {};   // the same of each test with the fit to all tests
-  double misfit_of_fit = unjudged;           // their sum
-  double explained = unjudged;               // sqrt(G/samples): 1 where sensor and floor noise explain all
-  double delta_bic = 0;                      // against the base; negative: better
+  bool visible = true;                      // the data can see it
+  bool practical = true;                    // its parameters lie where it is met
+  std::vector<double> misfits = {};         // G, of each test left out
+  double misfit = unjudged;                 // their sum; nan: not judged
+  std::vector<double> misfits_of_fit = {};  // the same of each test with the fit to all tests
+  double misfit_of_fit = unjudged;          // their sum
+  double explained = unjudged;              // sqrt(G/samples): 1 where sensor and floor noise explain all
+  double delta_bic = std::numeric_limits<double>::quiet_NaN();  // against the base; negative: better; of peaks none
   double difference = 0, difference_se = 0;  // of the left-out score to the best one's, paired over the tests
   bool rival = false;                        // cannot be told from the best
   // Why it is not named though it misses by less; of outcomes also why it was not fitted to the end; of the named one, what is off beside it.

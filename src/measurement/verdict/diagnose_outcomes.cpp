@@ -63,7 +63,7 @@ class OutcomeDiagnoser {
     for (const auto* effect : catalogue)
       if (goes_with(without.model, *effect) && without.x.size() + fitted_numbers(*effect) < tests_)
         effects.push_back(effect);
-      else if (goes_with(without.model, *effect))
+      else if (known.empty() && goes_with(without.model, *effect))
         untried_.push_back(effect->name);
     auto screened = screen_outcomes(bench_, without, effects, effort_, jobs_);
     std::vector<OutcomeTable*> promising, others;
