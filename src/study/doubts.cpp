@@ -21,7 +21,7 @@ namespace freestand::study {
 namespace {
 
 constexpr double longest_m = 10, steepest_rad = 1.2, roughest = 2, longest_period_s = 20, strongest_g = 10,
-                 fastest_mps = 10, coarsest_step_s = 0.1;
+                 fastest_mps = 10;
 // Of two thirds of the values, which no dimension or coefficient does: a lognormal's from a dispersion of 2.3 on.
 constexpr double widest_factor = 100;
 // The strongest floors that were recorded reach some g, and records are used from some hundredths of g on.
@@ -183,6 +183,22 @@ void ask_of_legs(const ModelPart& model, Doubter& doubter) {
                   least_hz, softest_hz));
 }
 
+// A block whose corner has turned by a right angle has fallen.
+void ask_of_capacities(const FragilityPart& fragility, Doubter& doubter) {
+  const struct {
+    const char* unit;
+    double largest;
+    const char* question;
+  } kinds[] = {{"_m", longest_m, "is it in metres?"},
+               {"_rad", M_PI / 2, "is it in radians?"},
+               {"_g", strongest_g, "is it in g?"}};
+  for (const CapacitiesPart& of : fragility.capacities)
+    for (const auto& kind : kinds)
+      if (of.edp.ends_with(kind.unit) && !of.values.empty() && of.values.back() > kind.largest)
+        doubter.said.push_back(
+            fmt::format("fragility.capacities.{} goes up to {:.4g}: {}", of.edp, of.values.back(), kind.question));
+}
+
 std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) {
   Doubter doubter;
   const BlockPart& block = study.model.block;
@@ -198,6 +214,7 @@ std::vector<std::string> doubts_of_numbers(const Study& study, bool one_sample) 
   for (const MotionSource& source : study.motions) ask_of_source(source, shaken, study.model.start.any(), doubter);
   for (const DamagePart& state : study.fragility.damage)
     for (const Quantity& quantity : state.parameters) doubter.ask_spread(quantity);
+  ask_of_capacities(study.fragility, doubter);
   for (const MotionSource& source : study.motions) ask_of_polarity(source, one_sided(study), one_sample, doubter);
   ask_of_legs(study.model, doubter);
   const auto& chain = study.model.chain;

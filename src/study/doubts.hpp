@@ -10,6 +10,9 @@
 
 namespace freestand::study {
 
+// Between the samples of a coarser motion a floor of 5 Hz turns [s].
+inline constexpr double coarsest_step_s = 0.1;
+
 // Of its numbers, by their medians.
 std::vector<std::string> doubts(const Study&);
 // Of its records, as their median scale leaves them.

@@ -12,6 +12,7 @@
 #include "measurement/laboratory/timing.hpp"
 #include "measurement/noise/third_differences.hpp"
 #include "measurement/predict/bench.hpp"
+#include "study/doubts.hpp"
 #include "study/import_file.hpp"
 #include "study/import_text.hpp"
 
@@ -238,6 +239,10 @@ class Importer {
                     "and {:.4g} s are in both",
                     lab.id, floor.step_s, response.step_s, step_s, step_s * static_cast<double>(t.floor.size() - 1),
                     floor.time.back() - floor.time.front(), response.time.back() - response.time.front()));
+    for (const File* file : {&floor, &response})
+      if (file->step_s > coarsest_step_s)
+        say(fmt::format("{}: the time step of {} is {:.4g} s: is its time in seconds?", lab.id,
+                        file->table.file.filename().string(), file->step_s));
     if (std::abs(t.start_s) > 0.5 * step_s)
       say(fmt::format("{}: time 0 is now what was {:.6g} s in {}", lab.id, t.start_s,
                       lab.floor.path.filename().string()));

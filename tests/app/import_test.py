@@ -188,6 +188,16 @@ class Import(InFolder):
         self.imported("set", "--overwrite")
         self.succeed(["compare", study, "-o", self.folder / "compared", "--quiet"])
 
+    def test_a_time_in_another_unit_is_told(self):
+        """Both files in milliseconds, said to be seconds."""
+        for name, rows in self.truth.items():
+            self.write(f"table {name}.txt", "Time (s)\tACC1\tTemp\n"
+                       + "\n".join(f"{5 * i}\t{row['floor_acceleration_mps2'] / G:.9f}\t20" for i, row in enumerate(rows)) + "\n")
+        self.write("lab.yaml", self.lab.read_text(encoding="utf-8").replace("{column: t_ms, unit: ms}", "{column: t_ms, unit: s}"))
+        told = self.imported().stdout
+        self.assertIn("the time step of table t01.txt is 5 s: is its time in seconds?", told)
+        self.assertIn("the time step of block_t01.csv is 10 s: is its time in seconds?", told)
+
     def test_what_was_taken_for_granted_is_told(self):
         """Rows that are missing, a unit that nobody gave, one that is another than the column's name says, and clocks in step."""
         text = self.lab.read_text(encoding="utf-8")

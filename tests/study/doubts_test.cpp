@@ -31,6 +31,15 @@ TEST(Doubts, NumbersInAnotherUnit) {
               ElementsAre(HasSubstr("is it in radians")));
 }
 
+TEST(Doubts, CapacitiesInAnotherUnit) {
+  const auto with = [](const char* capacities) {
+    return doubts(parse(block + friction + motions + samples +
+                        "fragility: {edp: [peak_slip_m], capacities: {peak_slip_m: " + capacities + "}}\n"));
+  };
+  EXPECT_THAT(with("[20, 100, 300]"), ElementsAre("fragility.capacities.peak_slip_m goes up to 300: is it in metres?"));
+  EXPECT_THAT(with("[0.02, 0.1, 0.3]"), IsEmpty());
+}
+
 TEST(Doubts, DispersionsThatAreNoLogarithms) {
   const auto with = [](const char* dispersion) {
     return doubts(
