@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "effects/effects.hpp"
+#include "measurement/examined.hpp"
 #include "measurement/fit/least_squares.hpp"
 #include "measurement/fit/model_fit.hpp"
 #include "measurement/fit/posterior.hpp"
@@ -17,13 +18,7 @@ namespace {
 
 constexpr double mu = 0.2;
 
-Specimen sliding() {
-  Specimen s;
-  s.block = Block::rectangular(0.8, 0.6, 100);
-  s.friction = {mu, mu};
-  s.model = Model::slide;
-  return s;
-}
+Specimen sliding() { return test::sliding_cabinet(mu); }
 
 // Peak slips of a block with that friction: three in which it slides, and two whose floor stays below mu g.
 Dataset made_peaks() {

@@ -7,19 +7,14 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "measurement/examined.hpp"
 #include "measurement/made_tests.hpp"
 #include "motion/pulse.hpp"
 
 namespace freestand::measurement {
 namespace {
 
-Specimen sliding(double mu) {
-  Specimen s;
-  s.block = Block::rectangular(0.8, 0.6, 100);
-  s.friction = {mu, mu};
-  s.model = Model::slide;
-  return s;
-}
+using test::sliding_cabinet;
 
 // Peaks of a block under pulses, of which each has its own strength and length.
 Dataset pulse_tests() {
@@ -32,7 +27,7 @@ Dataset pulse_tests() {
     test.scale = peak * standard_gravity_mps2;
     test.stretch = period;
     test.specimen = {0.8, 0.6, 100.0};
-    test.peaks.peak_slip_m = respond(sliding(0.2), test.shaking()).peak_slip_m;
+    test.peaks.peak_slip_m = respond(sliding_cabinet(0.2), test.shaking()).peak_slip_m;
     data.tests.push_back(std::move(test));
   }
   return data;
@@ -53,7 +48,7 @@ TEST(Suggest, ThePulseIsTheOneThatIsNamedWhicheverTestComesFirst) {
     const Suggestion s = suggest(bench, models, nullptr, run_here);
     const FloorMotion pulse = motion::pulse_motion(motion::find_pulse(s.pulse));
     const auto peak = [&](double friction) {
-      return respond(sliding(friction * s.friction_factor),
+      return respond(sliding_cabinet(friction * s.friction_factor),
                      {.motion = &pulse, .scale = s.peak_acceleration_g * standard_gravity_mps2, .stretch = s.period_s})
           .peak_slip_m;
     };
