@@ -103,7 +103,10 @@ void add_export(CLI::App& parser, Work& work) {
           "auto | lognormal (the fitted function) | discrete (the surface, bin by bin) | counted (shares of samples) "
           "| parts (the three parts, where a target takes formulas)")
       ->check(CLI::IsMember({"auto", "lognormal", "discrete", "counted", "parts"}));
-  verb->add_option("--id", request.what.id, "identifier in the file (usual: the name of the study)");
+  auto* id =
+      verb->add_option("--id", request.what.id,
+                       "identifier of the file, also of one with all entries of a database (usual: the name of the "
+                       "study, or of the database)");
   verb->add_option("--description", request.what.description, "what it is, in words");
   verb->add_option("--asset-category", request.what.asset_category,
                    "OpenQuake's assetCategory, IN-CORE's inventory type");
@@ -112,7 +115,8 @@ void add_export(CLI::App& parser, Work& work) {
   verb->add_option("--period", request.period_s,
                    "period in s of record.sa_g, which the table of records does not tell");
   verb->add_option("--im", request.im, "intensity of a database that has several, as sa_g:0.5 (usual: its first one)");
-  verb->add_flag("--each", request.each, "of a database: a file of its own for each entry, named by its id");
+  verb->add_flag("--each", request.each, "of a database: a file of its own for each entry, named by its id")
+      ->excludes(id);
   verb->add_flag("--skip-empty", request.what.skip_empty, "leave out bins with too few samples");
   verb->add_flag("--overwrite", request.overwrite, "replace files that freestand exported before");
   verb->callback(
