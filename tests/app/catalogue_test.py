@@ -282,7 +282,6 @@ class Catalogue(InFolder):
         self.fail_with(3, some, "1 of 2 entries are not exported", "fridge: overturned never happened")
         self.assertEqual([path.name for path in (self.folder / "pelicun").iterdir()], ["tall"])
         self.fail_with(2, ["export", db, "--format", "openquake", "--each", "-o", self.folder / "one.xml"], "name a folder")
-        self.fail_with(2, ["export", db, "--format", "openquake", "--each", "--id", "mine", "-o", self.folder / "mine"], "--id excludes --each")
         self.fail_with(3, ["export", db, "--format", "openquake", "--each", "-o", self.folder / "nrml"], "2 of 2 entries are not exported", "--overwrite")
 
     def test_a_run_that_was_killed_goes_on_to_the_same_bits(self):

@@ -181,6 +181,7 @@ class Export(InFolder):
         self.fail_with(2, base + ["openquake", "-o", self.folder / "a.json"], "another ending", "a.xml")
         self.fail_with(2, base + ["pelicun", "-o", self.folder / "a.csv"], "name a folder")
         self.fail_with(2, base + ["openquake"] + to + ["--id", "a.b"], "refuses the id a.b")
+        self.fail_with(2, base + ["openquake"] + to + ["--id", "a", "--each"], "--id excludes --each")
         self.fail_with(2, base + ["openquake"] + to + ["--limit-state", "slip"], "peak_slip_m, overturned")
         self.fail_with(2, base + ["openquake"] + to + ["--mu", "0.28"], "leave it out")
         self.fail_with(2, base + ["openquake"] + to + ["--form", "parts"], "openquake has no formulas")
