@@ -19,33 +19,9 @@ using Json = nlohmann::ordered_json;
 
 constexpr double ln_ratio_limit = 3, error_limit = 1e4;  // as measurement/predict/score.hpp cuts them off
 
-// Signs of slips that remain count where any of the set's has one (measurement/predict/score.hpp).
-bool sides_are_known(const Json& tests) {
-  for (const Json& test : tests)
-    for (const Json& peak : test["peaks"])
-      if (peak["name"] == "residual_slip_m" && !peak["measured"].is_null() && peak["measured"].get<double>() < 0)
-        return true;
-  return false;
-}
-
-// Root mean square of ln(predicted/measured) of what a test measured, with the sign of their sum; a slip that remains to the other side
-// is too little by the limit.
-std::string ln_ratio(const Json& test, bool sides_known) {
-  if (test["score"].is_null()) return three_digits(test["score"]);
-  const double size = std::sqrt(test["score"].get<double>());
-  const bool stands = test["outcome"] != "overturned", fell = test.value("overturned_measured", false);
-  double sum = fell && stands ? -1 : 0;
-  for (const auto& peak : test["peaks"]) {
-    if (!peak["compared"].get<bool>() || peak["measured"].is_null() || peak["model"].is_null()) continue;
-    const double is = peak["measured"].get<double>(), shown = peak["model"].get<double>();
-    const double measured = std::abs(is), model = std::abs(shown);
-    if (sides_known && peak["name"] == "residual_slip_m" && is * shown < 0)
-      sum -= ln_ratio_limit;
-    else if (measured != model)
-      sum += std::clamp(std::log(model / measured), -ln_ratio_limit, ln_ratio_limit);
-  }
-  return fmt::format("{}{}{}", size >= ln_ratio_limit ? (sum < 0 ? "<= " : ">= ") : "", sum < 0 ? "-" : "",
-                     three_digits(size));
+std::string ln_ratio(const Json& ratio) {
+  const bool cut_off = !ratio.is_null() && std::abs(ratio.get<double>()) >= ln_ratio_limit;
+  return (!cut_off ? "" : ratio.get<double>() < 0 ? "<= " : ">= ") + three_digits(ratio);
 }
 
 std::string noise_units(const Json& error) {
@@ -54,7 +30,6 @@ std::string noise_units(const Json& error) {
 }
 
 void tell_tests(const Json& json) {
-  const bool sides_known = sides_are_known(json["tests"]);
   const std::string unit = json["error_unit"].get<std::string>();
   constexpr const char* row = "{:<12} {:<12} {:>12} {:>12} {:>10}\n";
   if (unit == "Brier")
@@ -69,7 +44,7 @@ void tell_tests(const Json& json) {
                  fmt::format("{:.2f}", test["overturned_probability"].get<double>()), three_digits(test["score"]));
     else
       fmt::print(
-          row, id, role, test["kind"] == "peaks" ? ln_ratio(test, sides_known) : noise_units(test["error_noise_units"]),
+          row, id, role, test["kind"] == "peaks" ? ln_ratio(test["ln_ratio"]) : noise_units(test["error_noise_units"]),
           unit == "noise units" ? three_digits(test["error_expected"]) : "", three_digits(test["error_relative"]));
   }
   for (const char* role : {"calibration", "holdout"}) {

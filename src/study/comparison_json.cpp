@@ -62,6 +62,14 @@ double floor_peak_g(const Test& test) {
   return most / standard_gravity_mps2;
 }
 
+// Root mean square of ln(predicted/measured) of what a test of peaks measured, with the sign of their sum.
+Json ln_ratio(const Bench& bench, const TestComparison& t) {
+  if (kind(bench.test(t.test)) != Kind::peaks) return nullptr;
+  double sum = 0;
+  for (const double ratio : ln_ratios(bench, t.test, t.model)) sum += ratio;
+  return number_or_null(std::copysign(std::sqrt(t.error.score), sum < 0 ? -1 : 1));
+}
+
 Json test_json(const Bench& bench, const TestComparison& t) {
   const Test& test = bench.test(t.test);
   Json json = {{"id", test.id},
@@ -74,6 +82,7 @@ Json test_json(const Bench& bench, const TestComparison& t) {
                {"error_floor_noise_allowed", number_or_null(t.explained)},
                {"error_expected", number_or_null(t.expected)},
                {"score", number_or_null(t.error.score)},
+               {"ln_ratio", ln_ratio(bench, t)},
                {"outcome", name(t.model.response.outcome)},
                {"peaks", peaks_json(test, t.model)}};
   json["channels"] = Json::array();

@@ -6,7 +6,8 @@
 //   tests: [{id, role, kind (history|peaks|outcome), floor_peak_g, error_noise_units, error_relative,
 //     error_floor_noise_allowed (error_noise_units with the floor's noise allowed for, sample by sample), error_expected
 //     (what noise alone would make), channels: [{name, error_noise_units, error_relative, bias, autocorrelation}],
-//     peaks: [{name, measured, model, compared}], overturned_measured, overturned_probability, outcome, error_of_mean
+//     ln_ratio (of peaks: root of the score, with the sign of what is missed), peaks: [{name, measured, model, compared}],
+//     overturned_measured, overturned_probability, outcome, error_of_mean
 //     (error_noise_units of the mean of the predictions of many draws, or null), within_band (share of the readings that lie where
 //     90 of 100 are predicted)}]
 //   calibration, holdout: {error_noise_units, error_relative, error, error_expected, error_floor_noise_allowed, error_of_mean,

@@ -129,14 +129,10 @@ TestError peak_error(const Bench& bench, std::size_t i, const Prediction& predic
   const Test& test = bench.test(i);
   TestError error;
   for (const double ratio : ln_ratios(bench, i, prediction)) error.score += ratio * ratio;
-  if (parted_by_a_fall(test, prediction) || fell(test)) {
-    const bool parted = parted_by_a_fall(test, prediction), stated = noise_is_stated(bench);
-    return {.score = error.score,
-            .noise_units = !stated  ? no_score
-                           : parted ? failed_error
-                                    : 0,
-            .relative = parted * 1.0};
-  }
+  const auto in_noise_units = [&](double e) { return noise_is_stated(bench) ? e : no_score; };
+  if (parted_by_a_fall(test, prediction))
+    return {.score = error.score, .noise_units = in_noise_units(failed_error), .relative = 1};
+  if (fell(test)) return {.score = error.score, .noise_units = in_noise_units(0)};
   const auto pairs = peak_pairs(bench, test, prediction.response);
   const auto n = static_cast<double>(std::max<std::size_t>(pairs.size(), 1));
   double square = 0;
