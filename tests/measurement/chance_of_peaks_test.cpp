@@ -165,6 +165,66 @@ TEST(ChanceOfPeaks, HasItsSizeWherePeaksOfATestStrayApart) {
   EXPECT_LE(high, test::likely_counts(sets, 0.1).most);
 }
 
+// At the truth, its friction known.
+Chance misfit_of(const Bench& bench, double mu) {
+  ModelFit fit{.model = test::free_friction(), .x = {mu}};
+  fit.calibration = test_errors(bench, tests_of(bench.data(), Role::calibration), fit.model, fit.x);
+  return chance_of_misfit_of_peaks(bench, fit);
+}
+
+// Floors alike, and as strong as what friction scatters about: half the tests stand still, half slide, and no model tells which. The mean of the
+// others would foretell each by less than the truth does.
+TEST(ChanceOfPeaks, RefutesNoTruthWhereTestsStandOrSlideByChance) {
+  const int sets = test::repeats_asked(40);
+  int rejected = 0, still = 0;
+  for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key) {
+    test::KeyedRandom frictions(54, key);
+    Dataset data = peaks_of(test::cabinet(), 0.1, key);
+    for (measurement::Test& test : data.tests) {
+      Specimen specimen = test::cabinet();
+      specimen.friction.mu_s = specimen.friction.mu_k *= std::exp(0.1 * frictions.normal());
+      test.motion = test::swings(2, 0.5);
+      test.peaks.peak_slip_m = respond(specimen, test.shaking()).peak_slip_m;
+      still += *test.peaks.peak_slip_m == 0;
+    }
+    rejected += !misfit_of(Bench(data, 0), 0.2).chance();
+  }
+  EXPECT_GT(still, 3 * sets);
+  EXPECT_LT(still, 9 * sets);
+  EXPECT_LE(rejected, test::likely_counts(sets, 0.05).most);
+}
+
+// Twelve tests of one motion, and friction stated twice as large as it is: what repeats itself refutes it.
+TEST(ChanceOfPeaks, RefutesAModelThatTellsLessThanAnotherTestDoes) {
+  Dataset data = peaks_of(test::cabinet(), 0.05, 3);
+  test::KeyedRandom random(55, 1);
+  for (measurement::Test& test : data.tests) {
+    test.motion = test::swings(5, 0.5);
+    test.peaks.peak_slip_m = respond(test::cabinet(), test.shaking()).peak_slip_m * std::exp(0.05 * random.normal());
+  }
+  const Bench bench(data, 0);
+  EXPECT_FALSE(misfit_of(bench, 0.4).chance());
+  EXPECT_GT(misfit_of(bench, 0.2).p, 0.3);
+  data.tests.resize(4);
+  EXPECT_TRUE(misfit_of(Bench(data, 0), 0.4).chance()) << "2^-4";
+}
+
+// Friction stated ten times too large holds the model in every test, and no effect of those tried mends that: it was said that none is needed.
+TEST(ChanceOfPeaks, AModelThatMissesEveryTestIsNotEnough) {
+  const Dataset data = peaks_of(test::cabinet(), 0.1, 6);
+  ModelSpec holds = test::free_friction();
+  holds.model = Model::slide;
+  holds.free.clear();
+  holds.mu_k = {.value = 2};
+  const Diagnosis d = diagnose(Bench(data, 0), holds, {effects::find("friction_wear")}, {}, run_here);
+  EXPECT_EQ(d.verdict, Verdict::unknown);
+  EXPECT_EQ(d.reason, Reason::none_helps);
+  ASSERT_FALSE(d.sentences.empty());
+  EXPECT_NE(d.sentences[0].find("misses the peaks of tests left out by 2.97 (ln), where one test misses another by"),
+            std::string::npos)
+      << d.sentences[0];
+}
+
 // The intervals and the band of another peak hold as often as they say: of 40 sets 90 % are 29 to 40 but for one run in a thousand.
 TEST(PosteriorOfPeaks, HoldsTheTruthAndAnotherPeak) {
   const int sets = test::repeats_asked(20);

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/random.hpp"
+#include "base/units.hpp"
+
 namespace freestand::measurement {
 namespace {
 
@@ -99,6 +102,18 @@ MatrixXd basis(const MatrixXd& columns) {
 }
 VectorXd beyond(const MatrixXd& basis, const VectorXd& y) { return y - basis * (basis.transpose() * y); }
 
+// The peaks of a test, as if a model had foretold them.
+Prediction as_measured(const Test& test) {
+  const Peaks& p = test.peaks;
+  Prediction measured;
+  measured.response.outcome = fell(test) ? Outcome::overturned : Outcome::moved;
+  measured.response.peak_slip_m = p.peak_slip_m.value_or(0);
+  measured.response.residual_slip_m = p.residual_slip_m.value_or(0);
+  measured.response.peak_rotation_rad = p.peak_rotation_rad.value_or(0);
+  measured.response.peak_acceleration_mps2 = p.peak_acceleration_g.value_or(0) * standard_gravity_mps2;
+  return measured;
+}
+
 }  // namespace
 
 PeakScatter scatter_of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
@@ -148,6 +163,33 @@ Chance chance_of_lead_of_peaks(const Bench& bench, const ModelFit& leader, const
   weigh(chance, [&](std::uint64_t s) { return lead(apart + about_rival.weighed(about_rival.draw(s))); });
   weigh_power(chance, [&](std::uint64_t s) { return lead(about_rival.weighed(about_best.draw(s))); });
   if (chance.observed <= 0) chance.p = 1;  // no lead
+  return chance;
+}
+
+std::vector<TestError> errors_of_another_test(const Bench& bench) {
+  const std::vector<std::size_t> tests = tests_of(bench.data(), Role::calibration);
+  std::vector<TestError> errors(tests.size());
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    for (const std::size_t other : tests)
+      if (other != tests[i])
+        errors[i].score +=
+            test_error(bench, tests[i], as_measured(bench.test(other))).score / static_cast<double>(tests.size() - 1);
+  return errors;
+}
+
+Chance chance_of_misfit_of_peaks(const Bench& bench, const ModelFit& fit) {
+  const std::vector<TestError>& of_model = fit.left_out_refitted ? fit.left_out : fit.calibration;
+  const std::vector<TestError> of_another = errors_of_another_test(bench);
+  VectorXd more(static_cast<Index>(of_another.size()));
+  for (std::size_t i = 0; i < of_another.size(); ++i)
+    more[static_cast<Index>(i)] = of_model[i].score - 2 * of_another[i].score;
+  Chance chance{.question = misfit_question, .about = {}, .observed = more.mean()};
+  weigh(chance, [&](std::uint64_t s) {
+    VectorXd turned = more;
+    for (Index t = 0; t < turned.size(); ++t)
+      if (random::bits(31, s, static_cast<std::uint64_t>(t)).first & 1) turned[t] = -turned[t];
+    return turned.mean();
+  });
   return chance;
 }
 

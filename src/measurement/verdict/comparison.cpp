@@ -110,7 +110,7 @@ std::vector<const Candidate*> CandidateComparison::rivals_by_left_out() const {
 }
 
 bool CandidateComparison::enough(const Candidate& c) {
-  return !histories_ || leaves_chance(c) || (c.explained <= adequate && !c.laboratory);
+  return leaves_chance(c) || (histories_ && c.explained <= adequate && !c.laboratory);
 }
 
 bool CandidateComparison::leaves_chance(const Candidate& c) {

@@ -9,6 +9,7 @@
 #include "base/digits.hpp"
 #include "measurement/laboratory/laboratory.hpp"
 #include "measurement/verdict/answers.hpp"
+#include "measurement/verdict/chance_of_peaks.hpp"
 #include "measurement/verdict/comparison.hpp"
 
 namespace freestand::measurement {
@@ -174,9 +175,27 @@ class Decision : CandidateComparison {
              : ""));
   }
 
+  // Of peaks: how far a model misses tests left out beside what another test of the set tells of them.
+  std::string beside_another_test(const Candidate& c) const {
+    const auto error = [&](const std::vector<TestError>& errors) {
+      return pooled(bench_, tests_of(bench_.data(), Role::calibration), errors).error;
+    };
+    const Chance* chance = answer(d_, misfit_question, whole(c));
+    return fmt::format(
+        "misses the peaks of tests left out by {} (ln), where one test misses another by {}, more than chance makes (p "
+        "{:.2g})",
+        three_digits(error(c.fit.left_out)), three_digits(error(errors_of_another_test(bench_))),
+        chance ? chance->p : 0);
+  }
+  static constexpr const char* check_the_tests =
+      "check units, dimensions and signs, and which record belongs to which test";
+
   void nothing_suffices(const Candidate& best, const std::string& ahead) {
     d_.verdict = Verdict::unknown;
     d_.reason = Reason::none_suffices;
+    if (!histories_)
+      return say(fmt::format("the effect that foretells tests left out best, {}, {}: {}", joined(best.effects),
+                             beside_another_test(best), check_the_tests));
     say(
         fmt::format("the effect that foretells tests left out best, {}, still leaves an error of {:.2f} where noise "
                     "explains 1: look at the recovered force, and write its law as a formula{}",
@@ -198,6 +217,9 @@ class Decision : CandidateComparison {
     } else {
       d_.verdict = Verdict::unknown;
       d_.reason = Reason::none_helps;
+      if (!histories_)
+        return say(fmt::format("the model {}, and no effect of the catalogue lowers that by more than chance: {}",
+                               beside_another_test(d_.base), check_the_tests));
       say(fmt::format(
           "the model misses the measurements by {:.3g} where noise explains 1, and no effect of the "
           "catalogue {}{}: look at the recovered force",

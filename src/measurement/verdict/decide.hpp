@@ -9,8 +9,9 @@
 //   rivals    those whose own data would give the best its lead, and those that miss tests left out by less; where none is enough but by its own error, those
 //             of which that is so too
 //             Where the best is enough only if what is stated is off within its tolerances, all are judged so
-//   enough    its misfit is one that data from itself may have, or its own error is no larger than the noise. What the laboratory states
+//   enough    histories: its misfit is one that data from itself may have, or its own error is no larger than the noise. What the laboratory states
 //             wrongly is named only by the former: a number that is put right leaves noise alone
+//             peaks: tests left out are missed by no more than another test of the set would foretell them (chance_of_peaks.hpp)
 //
 // Of the best and its rivals, and of all candidates where none helps, the one of least left-out error is told as the best.
 // What leaves less still, and what does as well with odd numbers, has a remark that says why it is not named.
@@ -25,7 +26,7 @@ namespace freestand::measurement {
 // What is asked of simulations, each answered by a chance.
 struct Questions {
   std::function<Chance(const Candidate& best, const Candidate& rival)> lead;
-  std::function<Chance(const Candidate&)> enough;   // histories
+  std::function<Chance(const Candidate&)> enough;
   std::function<Chance(const Candidate&)> another;  // histories: does one more effect help beside these?
   std::function<Chance(const Candidate&)> steady;   // histories: does it help where its own replays do not fan out?
   std::function<double(const Candidate&)>

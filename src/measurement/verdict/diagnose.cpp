@@ -196,7 +196,11 @@ class Diagnoser : PairSearch {
                                    std::max<std::size_t>(1, tried_alone().size()), jobs_, out_.friction_scatter);
     };
     decide(bench_, out_,
-           {lead, [&](const Candidate& c) { return chance_of_misfit_of(c.fit); },
+           {lead,
+            [&](const Candidate& c) {
+              return kind_of_set(bench_) == Kind::peaks ? chance_of_misfit_of_peaks(bench_, c.fit)
+                                                        : chance_of_misfit_of(c.fit);
+            },
             [&](const Candidate& c) { return chance_of_another(c); }, steady,
             [&](const Candidate& c) { return what_suits(c.fit).misfit; }});
   }
