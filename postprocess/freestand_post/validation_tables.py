@@ -129,7 +129,7 @@ def chances(results):
     """How likely chance is to do what the verdict rests on."""
     if not results.diagnosis:
         return []
-    return [{"question": _question(row), "p": words.number(row["p"], 2) if row["p"] * row["simulations"] > 1.5 * _tries(row) else
+    return [{"question": _question(row, results.diagnosis.unit == "ln ratio"), "p": words.number(row["p"], 2) if row["p"] * row["simulations"] > 1.5 * _tries(row) else
              f"less than {words.number(_tries(row) / max(row['simulations'], 1), 2)}", "sets": words.count(row["simulations"]),
              "apart": f"{100 * row['told_apart']:.0f} %" if math.isfinite(row["told_apart"]) else ""}
             for row in results.diagnosis.chances]
@@ -140,9 +140,11 @@ def _tries(row):
     return tries if math.isfinite(tries) else 1
 
 
-def _question(row):
+def _question(row, of_peaks):
     if row["question"] == "does an effect help":
         return f"that the best of {row['about']} gains as much where nothing is missing"
+    if row["question"] == "is it enough" and of_peaks:
+        return f"that {_named(row['about'])} misses tests by so much more than one test misses another where it is the truth"
     if row["question"] == "is it enough":
         return f"that {_named(row['about'])} leaves as much where it is the truth"
     if row["question"] == "does one more help":

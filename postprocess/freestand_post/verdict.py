@@ -31,6 +31,9 @@ def title(diagnosis, was=False):
     if diagnosis.proposal:
         return (f"no effect of the catalogue explains it; {validation.effect(diagnosis.proposal['effect'])}, a law of no catalogue, "
                 f"leaves {_error(diagnosis.proposal)} of {_error(diagnosis.base)}")
+    if diagnosis.unit == "ln ratio" and diagnosis.reason in ("none_helps", "none_suffices"):
+        lacks = "the model" if diagnosis.reason == "none_helps" else "even the best effect of the catalogue"
+        return f"{lacks} misses the peaks by more than one test misses another, so something else is wrong"
     return {WITHDRAWN: "no verdict, since the measurements look wrong in a sign, a clock, a unit, an offset or a dimension",
             "none_helps": "the model misses more than noise explains, and no effect of the catalogue predicts the tests left out better, beyond chance",
             "none_suffices": "no effect of the catalogue explains all that the model misses"}.get(

@@ -1,4 +1,6 @@
 // Sets of peaks: what a peak of zero is worth, to the score and to the fit.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -238,6 +240,38 @@ TEST(Peaks, ASlipThatRemainsHasASide) {
   EXPECT_EQ(score(-remains, other), 9);
   data.tests[2].peaks.residual_slip_m = std::abs(*data.tests[2].peaks.residual_slip_m);
   EXPECT_NEAR(score(std::abs(remains), -other), 0, 1e-12) << "sizes alone";
+}
+
+// Peaks with the slips that remain, all of the wrong sign: effects were named that turn sides. A floor that tilts is no such fault.
+TEST(Peaks, SidesThatAreTurnedRoundAreNoEffect) {
+  const auto verdict_on = [](const Specimen& of, double sign) {
+    Dataset data;
+    test::KeyedRandom random(56, 0);
+    for (int i = 0; i < 8; ++i) {
+      measurement::Test& test = data.tests.emplace_back();
+      test.id = std::string("s").append(std::to_string(i));
+      test.motion = test::swings((i % 2 ? -1 : 1) * (3 + 0.5 * i), 0.4 + 0.1 * (i % 5));
+      test.specimen = {0.8, 0.6, 100.0};
+      const Response r = respond(of, test.shaking());
+      test.peaks.peak_slip_m = r.peak_slip_m * std::exp(0.05 * random.normal());
+      test.peaks.residual_slip_m = sign * r.residual_slip_m * std::exp(0.05 * random.normal());
+    }
+    ModelSpec model = test::free_friction();
+    model.model = Model::slide;
+    const Diagnosis d = diagnose(Bench(data, 0), model, {effects::find("floor_tilt")}, {}, run_here);
+    return std::pair(d.verdict, fmt::format("{}", fmt::join(d.quality.findings, "; ")));
+  };
+  const auto [plain, nothing] = verdict_on(sliding(), 1);
+  EXPECT_EQ(plain, Verdict::none);
+  const auto [turned, told] = verdict_on(sliding(), -1);
+  EXPECT_EQ(turned, Verdict::bad_data);
+  EXPECT_NE(told.find("residual_slip_m looks turned round: with the other sign 7 of 7 tests end on the model's side"),
+            std::string::npos)
+      << told;
+  Specimen tilted = sliding();
+  tilted.effects = {{.effect = effects::find("floor_tilt"), .parameters = {0.05}}};
+  const auto [tilt, found] = verdict_on(tilted, 1);
+  EXPECT_EQ(tilt, Verdict::missing) << found;
 }
 
 // Tests in which nothing moved bound the friction that the others leave open.

@@ -85,6 +85,17 @@ class ThePage(Temporary):
                 self.assertEqual("with rate weakening, on tests left out" in page.text, reason == "none_suffices")
                 self.assertEqual(text.index("<figure") > text.index("What was found"), reason == "data")
 
+    def test_peaks_that_no_model_meets(self):
+        for reason, title in (("none_helps", "bench: the model misses the peaks by more than one test misses another"),
+                              ("none_suffices", "bench: even the best effect of the catalogue misses the peaks by more than one test misses another")):
+            with self.subTest(reason):
+                enough = {"question": "is it enough", "about": "the model as it is", "p": 0.01, "level": 0.05, "observed": 3, "chance_reaches": 1,
+                          "simulations": 2000, "told_apart": None}
+                page, _ = self.page(make.diagnosis(self.folder / reason, "unknown", reason=reason, best="rate_weakening", error_unit="ln ratio",
+                                                   tests_of_chance=[enough]))
+                self.assertIn(title, page.text)
+                self.assertIn("that the model as it is misses tests by so much more than one test misses another where it is the truth", page.text)
+
     def test_one_law_for_two_effects(self):
         law = {"effect": "friction_over_speed_squared", "error_left_out": 1.02, "friction": "mu*(1 + a*v*v)"}
         page, _ = self.page(make.diagnosis(self.folder / "one_law", "unknown", reason="one_law", best="rate_weakening+viscous_drag", proposed_law=law,

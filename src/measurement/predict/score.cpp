@@ -81,12 +81,6 @@ struct PeakPair {
   }
 };
 
-// Sizes alone say nothing of sides: signs count where any of the set's slips that remain has one.
-bool sides_are_known(const Dataset& data) {
-  return std::any_of(data.tests.begin(), data.tests.end(),
-                     [](const Test& test) { return test.peaks.residual_slip_m.value_or(0) < 0; });
-}
-
 std::vector<PeakPair> peak_pairs(const Bench& bench, const Test& test, const Response& r) {
   std::vector<PeakPair> pairs;
   const auto add = [&](const std::optional<double>& measured, double model, Channel channel) {
@@ -172,6 +166,11 @@ TellingTests telling_tests(const Bench& bench, const std::vector<std::size_t>& t
   TellingTests telling;
   for (const std::size_t i : tests) telling.add(ln_ratios(bench, i, predict(model, bench.test(i), x)));
   return telling;
+}
+
+bool sides_are_known(const Dataset& data) {
+  return std::any_of(data.tests.begin(), data.tests.end(),
+                     [](const Test& test) { return test.peaks.residual_slip_m.value_or(0) < 0; });
 }
 
 bool fell(const Test& test) { return test.peaks.overturned.value_or(false); }

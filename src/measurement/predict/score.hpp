@@ -36,6 +36,8 @@ struct TestError {
 double least_motion(const Bench&, Channel);
 
 bool fell(const Test&);
+// Sizes alone say nothing of sides: signs count where any of the set's slips that remain has one.
+bool sides_are_known(const Dataset&);
 // May peaks of the test be held against the model's? Not where either fell: the fall may be in one and not in the other. Histories
 // are held against histories, which both have it.
 bool peaks_compare(const Test&, const Response& model);

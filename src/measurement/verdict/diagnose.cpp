@@ -10,6 +10,7 @@
 #include "measurement/fit/outcome_fit.hpp"
 #include "measurement/fit/starts.hpp"
 #include "measurement/laboratory/laboratory.hpp"
+#include "measurement/laboratory/sides.hpp"
 #include "measurement/noise/unread_floors.hpp"
 #include "measurement/verdict/chance_of_peaks.hpp"
 #include "measurement/verdict/comparison.hpp"
@@ -51,11 +52,13 @@ class Diagnoser : PairSearch {
     fit(singles);
     judge();
     look_for_chance();
-    if (std::string fault = clocks_at_fault_.empty() ? stated_wrongly() : clocks_at_fault_; !fault.empty()) {
-      out_.quality.findings.push_back(std::move(fault));
-      withdraw(out_);
-      return std::move(out_);
-    }
+    for (std::string& fault : std::vector{clocks_at_fault_.empty() ? stated_wrongly() : clocks_at_fault_,
+                                          sides_turned_round(bench_, out_.base.fit, least_score(), quick(), jobs_)})
+      if (!fault.empty()) {
+        out_.quality.findings.push_back(std::move(fault));
+        withdraw(out_);
+        return std::move(out_);
+      }
     search_more();
     decide_all();
     tell_unread_floors();
@@ -115,6 +118,14 @@ class Diagnoser : PairSearch {
     if (!names.empty())
       out_.sentences.push_back(
           fmt::format("not tried, since they have more numbers than so few tests can fix: {}", fmt::join(names, ", ")));
+  }
+
+  // Of all models fitted to all tests.
+  double least_score() const {
+    double least = out_.base.fit.score;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible) least = std::min(least, c.fit.score);
+    return least;
   }
 
   // What is named because it is enough where something that is stated is off: its numbers and errors are those of a fit in which that is free.
