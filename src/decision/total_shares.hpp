@@ -3,7 +3,9 @@
 //   total share of X in Y = E[Var(Y | all but X)] / Var(Y) = E[(Y - Y')^2] / (2 Var(Y))
 //
 // with Y' from the same sample but for X, which is drawn again: M. J. W. Jansen, Computer Physics Communications 117 (1999), eq. 11.
-// ln of a demand: over the pairs of which both moved and stood. Errors by leaving out motions (jackknife.hpp); where the motion itself
+// ln of a demand: over the pairs of which both moved and stood. Among these the parameters are not independent, as they were drawn (what
+// moves under weak motions has little friction): a share alone (shares.hpp) then holds what goes with X, and may exceed the total one,
+// in which all others stay as they are. Errors by leaving out motions (jackknife.hpp); where the motion itself
 // is drawn again, a pair goes with either of its two.
 #pragma once
 

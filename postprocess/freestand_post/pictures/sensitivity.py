@@ -7,8 +7,10 @@ from . import Picture
 
 order = 55
 CAPTION = ("Bars: share of the variance that would go if the parameter were known, with its {level} interval, motions left out in turn. "
-           "{total}{lack}")
+           "{total}{lack}{moved}")
 TOTAL = "Open points: share that the parameter has a part in, alone and together with others (total). "
+MOVED = (" Of ln of a demand only what moved and stood counts, where parameters go together (what moves under weak motions has little friction): a bar "
+         "holds what goes with its parameter, and may be longer than its total share.")
 MOST_PANELS, MOST_PARAMETERS = 4, 10
 
 
@@ -59,7 +61,8 @@ def _picture(found, answers):
     finding = _finding(answers)
     style.headline(fig, finding, f"Shares of the variance with {words.level(found.confidence)} intervals"
                    + (f"; open points: total shares from {words.count(found.pairs)} pairs a parameter." if found.pairs else "."))
-    return Picture("sensitivity", fig, finding, CAPTION.format(level=words.level(found.confidence), total=TOTAL if found.pairs else "", lack=_lack(answers)), "sensitivity")
+    return Picture("sensitivity", fig, finding, CAPTION.format(level=words.level(found.confidence), total=TOTAL if found.pairs else "", lack=_lack(answers),
+                                                      moved=MOVED if any(answer.kind == "ln_demand" for answer in answers) else ""), "sensitivity")
 
 
 def _lack(answers):
