@@ -50,9 +50,11 @@ struct Answer {
 
 struct ShareRow {
   std::vector<fragility::Estimate> share;  // [parameter], idle ones left out
-  fragility::Estimate together;  // of each alone, summed; what is missing to 1 is due to parameters that act together
-  std::int64_t samples = 0;      // with this answer
-  int motions = 0;               // groups of motions that these have (at most 64 of records and 64 of others)
+  // Of each alone, summed; what is missing to 1 is due to parameters that act together, as long as they are independent (among what moved and
+  // stood they are not, and the sum may exceed 1).
+  fragility::Estimate together;
+  std::int64_t samples = 0;  // with this answer
+  int motions = 0;           // groups of motions that these have (at most 64 of records and 64 of others)
   double mean = 0, variance = 0;
 };
 

@@ -24,6 +24,7 @@ class Bin {
       : options_(tally.options()),
         edp_(options_.edps[edp]),
         bin_(bin),
+        tally_(tally),
         histogram_(tally.histogram(edp, bin)),
         motions_(tally.groups()),
         by_group_(sums_by_group(tally, edp, bin)),
@@ -38,13 +39,13 @@ class Bin {
     if (fit_.n < options_.minimum_samples) return fit_;
     fit_.status = BinStatus::counts_only;
     if (edp_.binary || fit_.n_moved < options_.minimum_samples) return fit_;
-    const BinLine line = line_of(total_, im_of_line(options_, bin_, fit_.im_mean));
-    const ThresholdFit found = fit_on(total_, line, edp_.still_threshold),
-                       tested = fit_on(total_, pilot_, edp_.still_threshold);
+    const BinSums::InCells ln_im = ln_im_of_cells(tally_, bin_);
+    const auto [found, slope] = law_of(total_, ln_im, im_of_line(options_, bin_, fit_.im_mean), edp_.still_threshold);
+    const ThresholdFit tested = law_along(total_, ln_im, pilot_, edp_.still_threshold).at;
     // A law that cannot be held against the samples is none.
     if (!(found.omega > least_omega) || !(tested.omega > least_omega)) return fit_;
     fit_.status = BinStatus::fitted;
-    fit_.slope = line.slope;
+    fit_.slope = slope;
     fit_.lambda = found.lambda;
     fit_.omega = found.omega;
     fit_.p_never = found.never;
@@ -85,11 +86,28 @@ class Bin {
     upper = interval.upper;
   }
 
+  // Where the threshold cuts the demands less the pilot's line: at each IM elsewhere. Three IMs a fine cell, evenly apart.
+  std::vector<Cut> cuts() const {
+    if (!(edp_.still_threshold > 0)) return {};
+    const double ln_threshold = std::log(edp_.still_threshold);
+    if (pilot_.slope == 0) return {{total_.moved, ln_threshold}};
+    constexpr std::size_t cells = TallyLayout::cells_per_bin;
+    const double low = options_.im_edge[bin_], width = options_.im_edge[bin_ + 1] - low;
+    std::vector<Cut> found;
+    for (std::size_t k = 0; k < cells; ++k) {
+      const double moved = total_.moved_in[static_cast<Eigen::Index>(k)];
+      for (const double part : {1.0 / 6, 1.0 / 2, 5.0 / 6}) {
+        const double im = low + width * (static_cast<double>(k) + part) / cells;
+        found.push_back({moved / 3, ln_threshold - pilot_.slope * (std::log(im) - pilot_.ln_im)});
+      }
+    }
+    return found;
+  }
+
   // S of what the histogram holds, demands less the pilot's line, against their own lognormal.
   void judge(const ThresholdFit& found) {
     const double n = total_.moved;
-    const double ln_threshold = edp_.still_threshold > 0 ? std::log(edp_.still_threshold) : -INFINITY;
-    const HistogramGoodness goodness = histogram_goodness(histogram_, found.lambda, found.omega, ln_threshold);
+    const HistogramGoodness goodness = histogram_goodness(histogram_, found.lambda, found.omega, cuts());
     fit_.ks_statistic = goodness.ks;
     fit_.ks_resolution = goodness.resolution;
     fit_.ks_p_textbook = kolmogorov_p(goodness.ks, n);
@@ -119,6 +137,7 @@ class Bin {
   const Options& options_;
   const EdpOptions& edp_;
   std::size_t bin_;
+  const Tally& tally_;
   std::span<const std::int64_t> histogram_;
   const MotionGroups& motions_;
   Eigen::MatrixXd by_group_;

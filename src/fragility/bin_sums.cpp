@@ -1,5 +1,6 @@
 #include "fragility/bin_sums.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace freestand::fragility {
@@ -14,7 +15,9 @@ BinSums::BinSums(const Eigen::RowVectorXd& row)
       ln2(row(6)),
       ln_im(row(7)),
       ln_im2(row(8)),
-      ln_times_ln_im(row(9)) {}
+      ln_times_ln_im(row(9)),
+      moved_in(row.segment<cells>(10).transpose()),
+      still_in(row.segment<cells>(10 + cells).transpose()) {}
 
 Eigen::MatrixXd sums_by_group(const Tally& tally, std::size_t edp, std::size_t bin) {
   const std::size_t groups = tally.layout().groups, capacities = tally.layout().capacity_count[edp];
@@ -22,9 +25,14 @@ Eigen::MatrixXd sums_by_group(const Tally& tally, std::size_t edp, std::size_t b
   for (std::size_t g = 0; g < groups; ++g) {
     const Counts c = tally.counts(edp, bin, g);
     const auto row = static_cast<Eigen::Index>(g);
-    table.row(row).head<BinSums::size>() << static_cast<double>(c.n), static_cast<double>(c.still),
-        static_cast<double>(c.over), static_cast<double>(c.moved), static_cast<double>(c.without_ln_im), c.sum_ln,
-        c.sum_ln2, c.sum_ln_im, c.sum_ln_im2, c.sum_ln_times_ln_im;
+    table.row(row).head<10>() << static_cast<double>(c.n), static_cast<double>(c.still), static_cast<double>(c.over),
+        static_cast<double>(c.moved), static_cast<double>(c.without_ln_im), c.sum_ln, c.sum_ln2, c.sum_ln_im,
+        c.sum_ln_im2, c.sum_ln_times_ln_im;
+    for (Eigen::Index k = 0; k < BinSums::cells; ++k) {
+      const std::size_t cell = bin * TallyLayout::cells_per_bin + static_cast<std::size_t>(k);
+      table(row, 10 + k) = static_cast<double>(tally.moved_in_cell(edp, cell, g));
+      table(row, 10 + BinSums::cells + k) = static_cast<double>(tally.still_in_cell(edp, cell, g));
+    }
     for (std::size_t k = 0; k < capacities; ++k)
       table(row, BinSums::size + static_cast<Eigen::Index>(k)) = static_cast<double>(tally.exceeding(edp, bin, g, k));
   }
@@ -48,9 +56,40 @@ GroupMoments moments(const BinSums& s, const BinLine& line) {
           s.ln2 - 2 * b * (s.ln_times_ln_im - x * s.ln) + b * b * (s.ln_im2 - 2 * x * s.ln_im + x * x * s.moved)};
 }
 
-ThresholdFit fit_on(const BinSums& s, const BinLine& line, double still_threshold) {
-  const GroupMoments m = moments(s, line);
-  return fit_above(m.n, m.sum, m.sum2, s.still, still_threshold);
+BinSums::InCells ln_im_of_cells(const Tally& tally, std::size_t bin) {
+  BinSums::InCells ln_im = BinSums::InCells::Zero();
+  for (Eigen::Index k = 0; k < BinSums::cells; ++k) {
+    const ImCell cell = tally.im_cell(bin * TallyLayout::cells_per_bin + static_cast<std::size_t>(k));
+    if (cell.im_sum > 0) ln_im[k] = std::log(cell.im_sum / static_cast<double>(cell.n));
+  }
+  return ln_im;
+}
+
+namespace {
+
+LineFit fit_on(const BinSums& s, const BinSums::InCells& ln_im, const BinLine& line, double still_threshold,
+               std::optional<double> slope) {
+  if (line.slope == 0 || s.still == 0 || !(still_threshold > 0)) {
+    const GroupMoments m = moments(s, line);
+    return {fit_above(m.n, m.sum, m.sum2, s.still, still_threshold), line.slope};
+  }
+  const double at = line.ln_im;
+  std::array<LineCell, BinSums::cells> cells;
+  for (Eigen::Index k = 0; k < BinSums::cells; ++k)
+    cells[static_cast<std::size_t>(k)] = {ln_im[k] - at, s.moved_in[k], s.still_in[k]};
+  return fit_line_above({s.moved, s.ln_im - at * s.moved, s.ln_im2 - 2 * at * s.ln_im + at * at * s.moved, s.ln, s.ln2,
+                         s.ln_times_ln_im - at * s.ln},
+                        cells, still_threshold, slope);
+}
+
+}  // namespace
+
+LineFit law_of(const BinSums& s, const BinSums::InCells& ln_im, double im, double still_threshold) {
+  return fit_on(s, ln_im, line_of(s, im), still_threshold, {});
+}
+
+LineFit law_along(const BinSums& s, const BinSums::InCells& ln_im, const BinLine& line, double still_threshold) {
+  return fit_on(s, ln_im, line, still_threshold, line.slope);
 }
 
 }  // namespace freestand::fragility

@@ -4,15 +4,17 @@
 #include <Eigen/Core>
 
 #include "fragility/clusters.hpp"
+#include "fragility/line_above.hpp"
 #include "fragility/tally.hpp"
-#include "fragility/threshold_fit.hpp"
 
 namespace freestand::fragility {
 
-// The fields of Counts as real numbers, then the samples above each capacity.
+// The fields of Counts as real numbers, those of each fine cell of IM that moved, and that stood still; then the samples above each capacity.
 struct BinSums {
+  static constexpr Eigen::Index cells = TallyLayout::cells_per_bin, size = 10 + 2 * cells;
+  using InCells = Eigen::Array<double, cells, 1>;
   double n, still, over, moved, without_ln_im, ln, ln2, ln_im, ln_im2, ln_times_ln_im;
-  static constexpr Eigen::Index size = 10;
+  InCells moved_in, still_in;
 
   explicit BinSums(const Eigen::RowVectorXd& row);
 };
@@ -27,7 +29,7 @@ struct BinLine {
   double ln_im = 0;
 };
 
-// The least-squares line of the moved samples, about an IM. Slope 0 where IM does not vary, where fewer than three moved,
+// The least-squares line of the moved samples, about an IM, as if none had stood still. Slope 0 where IM does not vary, where fewer than three moved,
 // or where some did at an IM that is not above 0.
 BinLine line_of(const BinSums& sums, double im);
 
@@ -37,6 +39,13 @@ double im_of_line(const Options& options, std::size_t bin, double mean);
 
 // Of ln EDP less the line, over the moved samples.
 GroupMoments moments(const BinSums& sums, const BinLine& line);
-ThresholdFit fit_on(const BinSums& sums, const BinLine& line, double still_threshold);
+
+// ln of the mean IM of each fine cell; 0 where none is above 0.
+BinSums::InCells ln_im_of_cells(const Tally& tally, std::size_t bin);
+
+// The law of the bin about that IM: the line and what scatters about it, beside those that stood still.
+LineFit law_of(const BinSums& sums, const BinSums::InCells& ln_im, double im, double still_threshold);
+// The same along a line that is known.
+LineFit law_along(const BinSums& sums, const BinSums::InCells& ln_im, const BinLine& line, double still_threshold);
 
 }  // namespace freestand::fragility

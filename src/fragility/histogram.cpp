@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "base/units.hpp"
@@ -37,17 +38,33 @@ double weighted_logs(double first, double count, const Probability& u) {
 }  // namespace
 
 HistogramGoodness histogram_goodness(std::span<const std::int64_t> count, double lambda, double omega,
-                                     double threshold) {
+                                     const std::vector<Cut>& cuts) {
   const double scale = 1 / (omega * std::sqrt(2.0));
   const auto normal = [&](double x) { return 0.5 * std::erfc(-(x - lambda) * scale); };
-  const double below = std::isfinite(threshold) ? normal(threshold) : 0;
-  const auto cdf = [&](double x) { return std::max(0.0, (normal(x) - below) / (1 - below)); };
+  struct Part {
+    double share, below;
+  };
+  std::vector<Part> parts;
+  double all = 0, lowest = std::numeric_limits<double>::infinity();
+  for (const Cut& cut : cuts) all += cut.weight;
+  for (const Cut& cut : cuts) {
+    parts.push_back({cut.weight / all, normal(cut.ln_threshold)});
+    if (cut.weight > 0) lowest = std::min(lowest, cut.ln_threshold);
+  }
+  if (parts.empty()) parts.push_back({1, 0}), lowest = -lowest;
+  const auto cdf = [&](double x) {
+    const double p = normal(x);
+    double sum = 0;
+    for (const Part& part : parts)
+      if (p > part.below) sum += part.share * (p - part.below) / (1 - part.below);
+    return sum;
+  };
   const double n = static_cast<double>(std::accumulate(count.begin(), count.end(), std::int64_t{0}));
   double before = 0, ks = 0, logs = 0;
   for (int cell = 0; cell < ln_cell_count; ++cell) {
     const double here = static_cast<double>(count[static_cast<std::size_t>(cell)]);
     if (here == 0) continue;
-    const double left = std::max(ln_cell_edge(cell), threshold), width = ln_cell_edge(cell) + ln_cell_width - left;
+    const double left = std::max(ln_cell_edge(cell), lowest), width = ln_cell_edge(cell) + ln_cell_width - left;
     // Steps and the distribution function are both straight within a cell: they part most at its first or last sample.
     const double first = cdf(left + 0.5 / here * width), last = cdf(left + (here - 0.5) / here * width);
     ks = std::max(

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <span>
+#include <vector>
 
 namespace freestand::fragility {
 
@@ -19,14 +19,18 @@ int ln_cell(double ln_value);
 // Left edge of a cell; for cell 0 one cell width below the range.
 double ln_cell_edge(int cell);
 
-// S and A^2 of the counts (ln_cell_count of them) against N(lambda, omega^2), or against its part above `threshold` where
-// nothing below was counted. The samples of a cell are taken as spread evenly over it: that is no other sample of the same
+// So much of what was counted is cut off at or below that value.
+struct Cut {
+  double weight, ln_threshold;
+};
+
+// S and A^2 of the counts (ln_cell_count of them) against N(lambda, omega^2), or against the mixture of its parts above each of the cuts. The samples of a cell are taken as spread evenly over it: that is no other sample of the same
 // distribution but for the density's slope within a cell, which moves its distribution function by at most
 // ln_cell_width^2/(8 omega^2 sqrt(2 pi e)), and for the share of samples outside the range; `resolution` is the sum of both.
 struct HistogramGoodness {
   double ks, ad, resolution;
 };
 HistogramGoodness histogram_goodness(std::span<const std::int64_t> count, double lambda, double omega,
-                                     double threshold = -std::numeric_limits<double>::infinity());
+                                     const std::vector<Cut>& cuts = {});
 
 }  // namespace freestand::fragility

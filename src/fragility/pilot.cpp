@@ -23,7 +23,8 @@ Options with_pilot(const Tally& first) {
       const BinSums sums(sums_by_group(first, e, b).colwise().sum());
       const bool enough = sums.moved >= options.minimum_samples;
       const double im = im_of_line(options, b, options.pilot_im[b]);
-      const double slope = enough ? line_of(sums, im).slope : everywhere;
+      const double slope =
+          enough ? law_of(sums, ln_im_of_cells(first, b), im, options.edps[e].still_threshold).slope : everywhere;
       if (std::isfinite(slope) && im > 0) options.pilot_slope[e][b] = slope;
     }
   }

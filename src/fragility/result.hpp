@@ -67,7 +67,8 @@ struct BinFit {
 };
 
 // P(EDP > C), [im, capacity]. `probability` is the one to use (fit or empirical by BinStatus), lower and upper its band
-// from resampled motions, `empirical` the plain fraction of samples above C, overturned ones included.
+// from resampled motions, `empirical` the plain fraction of samples above C, overturned ones included: of the whole bin, where the fit is
+// of the IM at which the bin stands.
 struct Surface {
   std::vector<double> probability, lower, upper, empirical;
   std::vector<double> least, most;  // of `empirical`, had every sample that failed stayed below, or lain above

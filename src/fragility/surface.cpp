@@ -29,11 +29,11 @@ struct Parts {
   std::vector<double> p_over, p_never, lambda, omega;  // [resample]
 };
 
-Parts resampled_parts(const Eigen::MatrixXd& totals, double im, double still_threshold) {
+Parts resampled_parts(const Eigen::MatrixXd& totals, const BinSums::InCells& ln_im, double im, double still_threshold) {
   Parts parts;
   for (Eigen::Index r = 0; r < totals.rows(); ++r) {
     const BinSums sums(totals.row(r));
-    const ThresholdFit fit = fit_on(sums, line_of(sums, im), still_threshold);
+    const ThresholdFit fit = law_of(sums, ln_im, im, still_threshold).at;
     const bool usable = fit.omega > 0;
     parts.p_over.push_back(sums.over / sums.n);
     parts.p_never.push_back(usable ? fit.never : unknown);
@@ -105,9 +105,9 @@ Surface surface(const Tally& tally, std::size_t edp, const Resampling& resamplin
                           left_out = resampling.totals_left_out(groups);
     const bool has_fit = bin.status != BinStatus::counts_only;
     const bool use_fit = bin.status == BinStatus::fitted || (has_fit && !options.empirical_fallback);
-    const Parts parts =
-        has_fit ? resampled_parts(totals, im_of_line(options, b, bin.im_mean), options.edps[edp].still_threshold)
-                : Parts{};
+    const Parts parts = has_fit ? resampled_parts(totals, ln_im_of_cells(tally, b), im_of_line(options, b, bin.im_mean),
+                                                  options.edps[edp].still_threshold)
+                                : Parts{};
     if (has_fit && bin.motions > 1) {
       bin.lambda_se = standard_deviation(parts.lambda);
       bin.omega_se = standard_deviation(parts.omega);

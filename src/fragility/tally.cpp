@@ -107,6 +107,7 @@ void Tally::add_edp(std::size_t e, const Place& place, const Sample& sample) {
     if (on_axis >= 0) count_at(layout_.at_axis(e, a, bin, static_cast<std::size_t>(on_axis), group));
   }
   if (still || over || edp.binary) return;
+  ++count_[layout_.at_moved_in_cell(e, cell, group)];
   const double ln_value = std::log(value);
   ExactSum* sums = &sum_[layout_.at_bin_sum(e, bin, group)];
   sums[0].add(ln_value);

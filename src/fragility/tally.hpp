@@ -101,6 +101,9 @@ class Tally {
   double mean_im(std::size_t bin) const;  // of all sound samples in it; NaN where there is none
   std::int64_t im_cell_n(std::size_t cell, std::size_t group) const;
   std::int64_t im_cell_over(std::size_t cell, std::size_t group) const;
+  // Of an EDP that takes capacities: moved and stood; and stood still.
+  std::int64_t moved_in_cell(std::size_t edp, std::size_t cell, std::size_t group) const;
+  std::int64_t still_in_cell(std::size_t edp, std::size_t cell, std::size_t group) const;
   // Of one EDP: samples, then those above each capacity.
   std::span<const std::int64_t> im_cell_of(std::size_t edp, std::size_t cell, std::size_t group) const;
   PairSums pair(std::size_t bin, std::size_t i, std::size_t j) const;  // of TallyLayout::paired, i <= j

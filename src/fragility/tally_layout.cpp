@@ -39,6 +39,7 @@ TallyLayout::TallyLayout(const Options& options, std::size_t group_count)
     capacity_count.push_back(capacity);
     exceeding.push_back(take(bins * groups * capacity));
     im_cells_of.push_back(take(im_cell_count() * groups * (1 + capacity)));
+    moved_in_cells.push_back(take(edp.binary ? 0 : im_cell_count() * groups));
     histogram.push_back(take(edp.binary ? 0 : bins * static_cast<std::size_t>(ln_cell_count)));
     std::vector<std::size_t>& offsets = axis.emplace_back();
     for (const std::size_t cells : axis_cells) offsets.push_back(take(bins * cells * groups * (1 + capacity)));

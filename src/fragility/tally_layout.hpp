@@ -28,11 +28,11 @@ struct TallyLayout {
   std::vector<std::size_t> capacity_count;  // [edp]
   std::vector<std::size_t> axis_cells;      // [axis]
 
-  std::size_t outside, failed, missing, bin_counts, im_cells;  // offsets of counts
-  std::vector<std::size_t> exceeding, histogram, im_cells_of;  // [edp]
-  std::vector<std::vector<std::size_t>> axis;                  // [edp][axis]
-  std::vector<std::size_t> axis_counts, axis_sums;             // [axis] of counts, of sums; one a cell
-  std::size_t bin_sums, im_sums, regression_sums;              // offsets of sums
+  std::size_t outside, failed, missing, bin_counts, im_cells;                  // offsets of counts
+  std::vector<std::size_t> exceeding, histogram, im_cells_of, moved_in_cells;  // [edp]
+  std::vector<std::vector<std::size_t>> axis;                                  // [edp][axis]
+  std::vector<std::size_t> axis_counts, axis_sums;                             // [axis] of counts, of sums; one a cell
+  std::size_t bin_sums, im_sums, regression_sums;                              // offsets of sums
   std::size_t count_size, sum_size;
 
   std::vector<std::size_t> paired;     // EDPs that take capacities: of these, every two vary together
@@ -66,6 +66,10 @@ struct TallyLayout {
   // n, then one an EDP capacity
   std::size_t at_im_cell_of(std::size_t edp, std::size_t cell, std::size_t group) const {
     return im_cells_of[edp] + (cell * groups + group) * (1 + capacity_count[edp]);
+  }
+  // of one that takes capacities
+  std::size_t at_moved_in_cell(std::size_t edp, std::size_t cell, std::size_t group) const {
+    return moved_in_cells[edp] + cell * groups + group;
   }
 };
 

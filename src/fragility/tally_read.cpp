@@ -103,6 +103,15 @@ std::int64_t Tally::im_cell_over(std::size_t cell, std::size_t group) const {
   return count_[layout_.at_im_cell(cell, group) + 1];
 }
 
+std::int64_t Tally::moved_in_cell(std::size_t edp, std::size_t cell, std::size_t group) const {
+  return options_.edps[edp].binary ? 0 : count_[layout_.at_moved_in_cell(edp, cell, group)];
+}
+
+std::int64_t Tally::still_in_cell(std::size_t edp, std::size_t cell, std::size_t group) const {
+  const std::int64_t over = options_.edps[edp].censored ? im_cell_over(cell, group) : 0;
+  return im_cell_of(edp, cell, group)[0] - over - moved_in_cell(edp, cell, group);
+}
+
 std::span<const std::int64_t> Tally::im_cell_of(std::size_t edp, std::size_t cell, std::size_t group) const {
   return {&count_[layout_.at_im_cell_of(edp, cell, group)], 1 + layout_.capacity_count[edp]};
 }

@@ -1,6 +1,6 @@
 // tally.h5: what was counted over all samples of a sweep that does not keep them all.
 //
-// root attributes: provenance.hpp, format "freestand-tally/1". /tally/words [word] int64, with the attribute fingerprint, of all
+// root attributes: provenance.hpp, format "freestand-tally/2". /tally/words [word] int64, with the attribute fingerprint, of all
 // that decides what is counted.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace freestand::io {
 
-inline constexpr const char* tally_format = "freestand-tally/1";
+inline constexpr const char* tally_format = "freestand-tally/2";
 
 struct TallyContent {
   Provenance provenance;  // whose samples are those that are counted

@@ -74,6 +74,11 @@ class Tables {
     std::optional<CsvTable>& table = tables_[name];
     try {
       table = read_csv_table(folder_ / name);
+      if (table->column("weight") < table->columns.size())
+        doubtful_.push_back(
+            fmt::format("{} has a column `weight`, which counts for nothing (rows are drawn alike): repeat rows, as "
+                        "often as each weighs",
+                        (folder_ / name).string()));
       if (is_of_a_model_that_lacks(folder_ / name))
         doubtful_.push_back(
             fmt::format("{} holds draws of a model that leaves more of its tests than noise does (by how much its "

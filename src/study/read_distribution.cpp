@@ -181,7 +181,9 @@ void check_range(const Distribution& distribution, const Range& range, const std
     return;
   }
   const std::string reach = std::isinf(end) ? fmt::format("its distribution has no {} end", low ? "lower" : "upper")
-                                            : fmt::format("its distribution reaches {}", number_text(end));
+                            : (low ? s.lower_open : s.upper_open)
+                                ? fmt::format("its distribution comes as near to {} as it may", number_text(end))
+                                : fmt::format("its distribution reaches {}", number_text(end));
   const bool cuttable = std::holds_alternative<Normal>(distribution) || std::holds_alternative<Lognormal>(distribution);
   problems.add(line,
                fmt::format("{} can take impossible values ({}, and {}): {}", where, reach, range.why,

@@ -1,7 +1,12 @@
 #include "study/sample_counts.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <freestand/error.hpp>
 #include <utility>
+
+#include "io/tally_file.hpp"
 
 namespace freestand::study {
 
@@ -19,7 +24,7 @@ std::string counts_fingerprint(const Study& study) {
   counted.fragility.false_discovery = whatever.false_discovery;
   counted.fragility.adequate = whatever.adequate;
   counted.fragility.empirical_fallback = whatever.empirical_fallback;
-  return fingerprint(counted);
+  return fingerprint(counted) + io::tally_format;
 }
 
 SampleCounts::SampleCounts(const Study& study, const Target& target, const std::vector<int>& motion_group,
@@ -52,6 +57,10 @@ parallel::Words SampleCounts::normal(const parallel::Words& added) const {
 }
 
 fragility::Result SampleCounts::result(const parallel::Words& words, const Jobs& jobs) const {
+  if (words.size() != size_)
+    throw Error(
+        fmt::format("the counts of this sweep cannot be read ({} words, not {}): sweep again", words.size(), size_),
+        Exit::data);
   return demands_.result(std::span(words).first(demand_words_), jobs);
 }
 

@@ -175,7 +175,7 @@ TEST(Histogram, OfALognormalThatIsCutOffBelow) {
   std::vector<std::int64_t> count(ln_cell_count, 0);
   for (const double x : above) ++count[static_cast<std::size_t>(ln_cell(std::log(x)))];
   const double n = static_cast<double>(above.size());
-  EXPECT_LT(histogram_goodness(count, -1, 0.4, threshold).ks, 1.5 / std::sqrt(n));  // Kolmogorov: 0.02 larger
+  EXPECT_LT(histogram_goodness(count, -1, 0.4, {{1, threshold}}).ks, 1.5 / std::sqrt(n));  // Kolmogorov: 0.02 larger
   EXPECT_GT(histogram_goodness(count, -1, 0.4).ks, 0.1);
 }
 

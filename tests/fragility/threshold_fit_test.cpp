@@ -9,11 +9,11 @@
 namespace freestand::fragility {
 namespace {
 
-struct Sample {
+struct CutOff {
   std::vector<double> above;
   double still = 0, threshold;
 
-  Sample(std::size_t n, double lambda, double omega, double never, double at, std::uint64_t stream) : threshold(at) {
+  CutOff(std::size_t n, double lambda, double omega, double never, double at, std::uint64_t stream) : threshold(at) {
     const auto drawn = test::lognormals(n, lambda, omega, stream);
     for (std::size_t i = 0; i < n; ++i)
       if (test::uniform(i, stream + 1) < never || drawn[i] <= threshold) {
@@ -42,7 +42,7 @@ struct Sample {
   }
 };
 
-void expect_maximum(const Sample& sample) {
+void expect_maximum(const CutOff& sample) {
   const ThresholdFit fit = sample.fit();
   const double best = sample.likelihood(fit.lambda, fit.omega, fit.never);
   for (const double step : {-1e-3, 1e-3}) {
@@ -63,8 +63,8 @@ TEST(ThresholdFit, WithoutAThresholdIsThatOfTheMoments) {
 }
 
 TEST(ThresholdFit, FindsTheLognormalBelowWhichHalfIsHidden) {
-  const Sample more(20000, std::log(0.1), 0.6, 0.3, 0.08, 1), none(20000, std::log(0.1), 0.6, 0, 0.08, 3);
-  for (const Sample* sample : {&more, &none}) {
+  const CutOff more(20000, std::log(0.1), 0.6, 0.3, 0.08, 1), none(20000, std::log(0.1), 0.6, 0, 0.08, 3);
+  for (const CutOff* sample : {&more, &none}) {
     const ThresholdFit fit = sample->fit();
     EXPECT_NEAR(fit.lambda, std::log(0.1), 0.08);
     EXPECT_NEAR(fit.omega, 0.6, 0.04);
@@ -77,7 +77,7 @@ TEST(ThresholdFit, FindsTheLognormalBelowWhichHalfIsHidden) {
 
 // Fewer are still than the truncated sample alone would have it: never = 0, and the count of the still ones is data.
 TEST(ThresholdFit, IsCensoredWhereFewAreStill) {
-  Sample few(2000, 0, 0.5, 0, 0.8, 5);
+  CutOff few(2000, 0, 0.5, 0, 0.8, 5);
   few.still *= 0.5;
   EXPECT_EQ(few.fit().never, 0);
   expect_maximum(few);

@@ -30,7 +30,7 @@ TEST(TallyFile, AnotherFormatIsRefused) {
   const test::Scratch scratch;
   const auto path = scratch.folder() / "samples.h5";
   write_samples({}, path, test::small_header(), {4, 4}, [](std::int64_t) { return test::small_rows(0, 4); });
-  EXPECT_THAT(test::error_text(Exit::data, [&] { read_tally(path); }), testing::HasSubstr("freestand-tally/1"));
+  EXPECT_THAT(test::error_text(Exit::data, [&] { read_tally(path); }), testing::HasSubstr("freestand-tally/2"));
 }
 
 }  // namespace
