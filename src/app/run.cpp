@@ -55,6 +55,8 @@ Exit check(const Context& context, const RunOptions& options) {
   return Exit::done;
 }
 
+constexpr const char* go_on = "go on with --resume";
+
 // A full disk, or what else has to be cured, costs nothing that was written before.
 study::SweepSummary sweep(const Context& context, const study::Study& study, const study::SweepOptions& options,
                           study::RunFolder& folder) {
@@ -62,7 +64,8 @@ study::SweepSummary sweep(const Context& context, const study::Study& study, con
     return study::sweep(context.world, study, options, folder);
   } catch (const Error& error) {
     if (error.exit() != Exit::cure) throw;
-    const std::string text = std::string(error.what()) + "; go on with --resume";
+    std::string text = error.what();
+    if (!text.ends_with(go_on)) text += fmt::format("; {}", go_on);
     if (dynamic_cast<const parallel::SharedError*>(&error)) throw parallel::SharedError(text, Exit::cure);
     throw Error(text, Exit::cure);
   }
@@ -72,8 +75,7 @@ Exit sweep_and_fit(const Context& context, const RunOptions& options, bool with_
   if (options.check) return check(context, options);
   if (options.folder.empty()) throw Error("no output folder (-o is missing): give -o DIR");
   const study::Study study = read(context, options);
-  study::RunFolder folder(context.world, options.folder, io::existing(options.overwrite, options.resume),
-                          "go on with --resume",
+  study::RunFolder folder(context.world, options.folder, io::existing(options.overwrite, options.resume), go_on,
                           {.writes = {study::study_path("").string()}, .reads = study::files_of_study(options.study)});
   const study::SweepSummary summary = sweep(context, study, {options.quiet, context.command_line, with_fit}, folder);
   study::FitSummary fitted;

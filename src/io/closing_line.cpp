@@ -109,14 +109,14 @@ void check_closing_line(const fs::path& path) {
   if (line != line_with(stated))
     throw Error(
         fmt::format("cannot read {} (it does not end with the line by which freestand closes its files: it was cut "
-                    "short, changed, or made by an earlier version or another program): make it again",
+                    "short, changed, or made by an earlier version or another program): remove it, and make it again",
                     path.string()),
         Exit::data);
   if (!file.checksum(before, sum)) throw cannot_read(path, errno);
   if (sum != stated)
     throw Error(
         fmt::format("cannot read {} (it was damaged or changed: the checksum of its bytes is {:08x}, and its last "
-                    "line says {:08x}): make it again",
+                    "line says {:08x}): remove it, and make it again",
                     path.string(), sum, stated),
         Exit::data);
 }

@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <freestand/error.hpp>
 #include <fstream>
 #include <limits>
@@ -137,6 +138,15 @@ std::string description(const Json& json) {
                      number.empty() ? "" : ", job " + number, json.value("since", ""));
 }
 
+// Of another user, say, or a folder: whoever may has to.
+void take_away(const fs::path& path) {
+  if (::unlink(path.c_str()) == 0 || errno == ENOENT) return;
+  throw Error(
+      fmt::format("{} was left by a run that died and cannot be removed here ({}): remove it, or have its owner do so",
+                  path.string(), std::strerror(errno)),
+      Exit::cure);
+}
+
 Error refusal(const fs::path& path, const Json& json) {
   return Error(fmt::format("{} is in use ({} works in it): wait for its end, or choose another folder",
                            path.parent_path().string(), description(json)));
@@ -223,11 +233,16 @@ void FolderLock::take_over(const std::string& text) const {
   while ((descriptor =
               uninterrupted([&] { return ::open(turn.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644); })) < 0) {
     if (errno != EEXIST) throw file_error("take over", path_, errno);
-    if (Clock::now() > end) ::unlink(turn.c_str());
+    if (Clock::now() > end) take_away(turn);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   ::close(descriptor);
-  if (const auto there = look_at(path_); there && there->text == text) ::unlink(path_.c_str());
+  try {
+    if (const auto there = look_at(path_); there && there->text == text) take_away(path_);
+  } catch (const Error&) {
+    ::unlink(turn.c_str());
+    throw;
+  }
   ::unlink(turn.c_str());
 }
 

@@ -56,11 +56,15 @@ std::string text_of(const std::array<char, 64>& fingerprint) {
   return {fingerprint.begin(), std::find(fingerprint.begin(), fingerprint.end(), '\0')};
 }
 
-// The header at this place, if a block begins there that the file has room for.
-std::optional<Header> header_at(const OpenFile& file, std::int64_t offset, std::int64_t file_size) {
+// The header at this place, if a block begins there that the file has room for. empty: nothing was ever written there.
+std::optional<Header> header_at(const OpenFile& file, std::int64_t offset, std::int64_t file_size,
+                                bool* empty = nullptr) {
   Header header;
   const Header expected;
-  if (!file.read(std::as_writable_bytes(std::span(&header, 1)), offset)) return {};
+  const auto bytes = std::as_writable_bytes(std::span(&header, 1));
+  const bool read = file.read(bytes, offset);
+  if (empty) *empty = read && std::ranges::all_of(bytes, [](std::byte b) { return b == std::byte{}; });
+  if (!read) return {};
   if (header.magic != expected.magic || header.format != expected.format || header.checksum != checksum_of(header))
     return {};
   if (header.rows < 0 || header.columns <= 0 || header.rows > file_size / header.columns) return {};
@@ -69,17 +73,25 @@ std::optional<Header> header_at(const OpenFile& file, std::int64_t offset, std::
 }
 
 // Calls found(header, offset) for each block that begins at `from` or behind it, before `to`, pages both; for none where the log cannot be
-// read. In the middle of a block there is no header, so that it is stepped over page by page.
-void for_each_header(const fs::path& path, std::int64_t from, std::int64_t to,
-                     const std::function<void(const Header&, std::int64_t)>& found) {
+// read. In the middle of a block there is no header, so that it is stepped over page by page. Answers how many places hold something, and no
+// block: what a killed rank had begun, or what was damaged. (Before the first block of a part may lie the end of one of the part before.)
+std::int64_t for_each_header(const fs::path& path, std::int64_t from, std::int64_t to,
+                             const std::function<void(const Header&, std::int64_t)>& found) {
   const OpenFile file(path, O_RDONLY);
-  if (!file) return;
+  if (!file) return 0;
   const std::int64_t size = file.size();
+  std::int64_t torn = 0;
+  bool known = from == 0, empty = false, in_torn = false;
   for (std::int64_t offset = from; offset < std::min(to, size);) {
-    const auto header = header_at(file, offset, size);
+    const auto header = header_at(file, offset, size, &empty);
     if (header) found(*header, offset);
+    known |= header.has_value();
+    const bool something = known && !header && !empty;
+    torn += something && !in_torn;
+    in_torn = something;
     offset += header ? whole_pages(header->bytes()) : page;
   }
+  return torn;
 }
 
 }  // namespace
@@ -103,7 +115,8 @@ void BlockLog::look(const Communicator& world) {
   parts = world.broadcast(std::move(parts));
   run_ = 0;
   places_.clear();
-  Words mine{-1};  // a part of a log of another study or kernel, then all places
+  Words mine{-1, 0};  // a part of a log of another study or kernel, what is torn, then all places
+  torn_ = 0;
   for (std::size_t i = 0; 3 * i < parts.size(); ++i) {
     const RunFile file{parts[3 * i], parts[3 * i + 1], log(parts[3 * i], parts[3 * i + 1])};
     run_ = std::max(run_, file.run);
@@ -116,13 +129,16 @@ void BlockLog::look(const Communicator& world) {
   }
   for (const Place& place : std::exchange(places_, {}))
     mine.insert(mine.end(), {place.block, place.run, place.node, place.offset});
+  mine[1] = torn_;
+  torn_ = 0;
   other_.reset();
   for (const Words& one : world.gather(mine)) {
     if (one[0] >= 0) {
       const auto other = static_cast<std::size_t>(3 * one[0]);
       other_ = {parts[other], parts[other + 1], log(parts[other], parts[other + 1])};
     }
-    for (std::size_t i = 1; i < one.size(); i += 4) places_.push_back({one[i], one[i + 1], one[i + 2], one[i + 3]});
+    torn_ += one[1];
+    for (std::size_t i = 2; i < one.size(); i += 4) places_.push_back({one[i], one[i + 1], one[i + 2], one[i + 3]});
   }
   keep_latest();
   looked_ = true;
@@ -135,7 +151,7 @@ void BlockLog::find() {
 }
 
 void BlockLog::look_into(const RunFile& log, std::int64_t from, std::int64_t to) {
-  for_each_header(log.path, from, to, [&](const Header& header, std::int64_t offset) {
+  torn_ += for_each_header(log.path, from, to, [&](const Header& header, std::int64_t offset) {
     if (const std::string other = text_of(header.fingerprint); other != fingerprint_)
       throw OtherBlocks(
           fmt::format("{} holds samples of another study (its fingerprint is {}, this study's is {}): resume with "
@@ -181,6 +197,10 @@ std::vector<std::int64_t> BlockLog::begin(const Communicator& world) {
   if (const std::size_t lost = places_.size() - whole.size(); lost > 0 && world.is_root())
     tell(fmt::format("{} of {} finished blocks in {} cannot be used (torn or damaged): computed again\n", lost,
                      places_.size(), folder_.string()));
+  if (torn_ > 0 && world.is_root())
+    tell(fmt::format(
+        "{} place{} in the logs of {} hold{} no whole block (torn or damaged): what was there is computed again\n",
+        torn_, torn_ == 1 ? "" : "s", folder_.string(), torn_ == 1 ? "s" : ""));
   places_ = std::move(whole);
   return blocks;
 }
@@ -272,6 +292,12 @@ std::int64_t count_blocks(const fs::path& folder) {
     for_each_header(log.path, 0, std::numeric_limits<std::int64_t>::max(),
                     [&](const Header&, std::int64_t) { ++count; });
   return count;
+}
+
+std::int64_t bytes_of_block(std::int64_t rows, std::int64_t columns) {
+  Header header;
+  header.rows = rows, header.columns = columns;
+  return whole_pages(header.bytes());
 }
 
 std::int64_t bytes_of_logs(const fs::path& folder) {

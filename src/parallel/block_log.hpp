@@ -91,6 +91,7 @@ class BlockLog {
   std::uint32_t kernel_;
   std::int64_t part_;
   std::int64_t run_ = 0;
+  std::int64_t torn_ = 0;      // places of the logs that hold something, and no block
   std::vector<Place> places_;  // one a block, ascending
   bool looked_ = false;
   std::optional<RunFile> other_;    // a log that holds blocks of another study or kernel
@@ -102,6 +103,7 @@ class BlockLog {
 
 // How many blocks lie in the logs of a folder, of whatever study, and how long the logs are [B], which takes no reading.
 std::int64_t count_blocks(const std::filesystem::path& folder);
+std::int64_t bytes_of_block(std::int64_t rows, std::int64_t columns);  // that it takes in a log
 std::int64_t bytes_of_logs(const std::filesystem::path& folder);
 
 }  // namespace freestand::parallel

@@ -307,6 +307,7 @@ CatalogueSummary build_catalogue(const Communicator& world, const Catalogue& cat
     io::refuse_others(folder, written);
     make_folder(folder / "entries");
     lock.emplace(folder, io::FolderLock::Settings{.lost = parallel::request_stop});
+    remove_asides(folder);
     before = database_before(folder);
     plan = plan_of(catalogue, before, folder, options.redo);
   });

@@ -200,6 +200,7 @@ std::vector<DatabaseExport> export_beside(const fs::path& database, const std::v
       request.output = database / "exports" / format;
       request.format = format;
       if (db.intensities.size() > 1) request.output = intensity_folder(request.output, im.name);
+      remove_asides(request.output);
       make_folder(request.output);  // the dot in sa_g:0.7 is no file's ending
       request.overwrite = true;
       request.im = im.name;

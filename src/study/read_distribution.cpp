@@ -181,7 +181,7 @@ void check_range(const Distribution& distribution, const Range& range, const std
     return;
   }
   const std::string reach = std::isinf(end) ? fmt::format("its distribution has no {} end", low ? "lower" : "upper")
-                            : (low ? s.lower_open : s.upper_open)
+                            : low && std::holds_alternative<Lognormal>(distribution)
                                 ? fmt::format("its distribution comes as near to {} as it may", number_text(end))
                                 : fmt::format("its distribution reaches {}", number_text(end));
   const bool cuttable = std::holds_alternative<Normal>(distribution) || std::holds_alternative<Lognormal>(distribution);

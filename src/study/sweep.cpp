@@ -58,7 +58,7 @@ std::string why_other(const Study& study, const std::filesystem::path& folder, c
     if (!told.empty()) return told;
   } catch (const Error&) {  // it is gone, or no study any more
   }
-  return same_samples ? "a record has other contents now, or another name" : "their fingerprint differs";
+  return same_samples ? "a record has other contents or another name now, is gone, or is new" : "their fingerprint differs";
 }
 
 MotionSet load_together(const Communicator& world, const Study& study, const SweepOptions& options) {

@@ -90,6 +90,19 @@ TEST(FolderLock, WhatIsNoLockIsTakenOverAfterASilence) {
   }
 }
 
+// As one of another user in a folder where everybody removes his own alone: it was tried for ever, without a word.
+TEST(FolderLock, OneThatCannotBeRemovedIsTold) {
+  const test::Scratch scratch("lock");
+  fs::create_directory(scratch / lock_name);
+  EXPECT_THAT(error_text(Exit::cure, [&] { FolderLock(scratch.folder(), quick()); }),
+              AllOf(HasSubstr("cannot be removed here (Is a directory)"), HasSubstr("remove it")));
+  fs::remove(scratch / lock_name);
+  die_with_the_lock(scratch.folder());
+  fs::create_directory(scratch / ".freestand.lock.taken_over.part");
+  EXPECT_THAT(error_text(Exit::cure, [&] { FolderLock(scratch.folder(), quick()); }),
+              HasSubstr("taken_over.part was left by a run that died and cannot be removed here"));
+}
+
 // Whoever died while it took a lock over keeps nobody out for longer than a holder may be silent, and leaves a file that others remove.
 TEST(FolderLock, WhatATakerLeftKeepsNobodyOut) {
   const test::Scratch scratch("lock");

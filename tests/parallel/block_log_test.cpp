@@ -161,6 +161,24 @@ TEST_F(BlockLogTest, AGapIsSteppedOver) {
   EXPECT_EQ(found(), (Blocks{5, 6}));
 }
 
+// A header that was damaged, and a block that was cut short: what was there is computed again, and that is told.
+TEST_F(BlockLogTest, WhatIsTornIsTold) {
+  run({5, 6, 7});
+  const fs::path path = logs(scratch_.folder()).front();
+  const std::string whole = read_whole(path);
+  const auto told = [&](const std::string& bytes) {
+    replace(path, bytes);
+    testing::internal::CaptureStderr();
+    begun();
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_EQ(told(whole), "");
+  std::string damaged = whole;
+  damaged[4096 + 24] ^= 0x10;
+  EXPECT_NE(told(damaged).find("1 place in the logs of"), std::string::npos);
+  EXPECT_NE(told(whole.substr(0, 2 * 4096 + 20)).find("holds no whole block"), std::string::npos);
+}
+
 TEST_F(BlockLogTest, ABlockThatIsDamagedBehindOursIsToldWhenItIsRead) {
   BlockLog store = begun();
   store.write(2, rows_of(1, {1, 2}));
