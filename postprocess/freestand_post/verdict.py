@@ -49,6 +49,11 @@ def gains_beyond_chance(diagnosis):
     return any(row["question"] == "does an effect help" and row["p"] <= row["level"] for row in diagnosis.chances)
 
 
+def leaves_more_than_chance(diagnosis):
+    """Does the base leave more than data from itself would?"""
+    return any(row["question"] == "is it enough" and row["about"] == "the model as it is" and row["p"] <= row["level"] for row in diagnosis.chances)
+
+
 def best_in_words(diagnosis, name):
     """The candidate with the least left-out error, as far as the verdict names it."""
     if diagnosis.verdict != "none" and diagnosis.reason != "none_helps":
@@ -80,8 +85,9 @@ def finding(diagnosis):
         return (f"A friction of its own in each test explains what the base misses: the base leaves {base} {diagnosis.unit} on tests left out, the "
                 f"effect that comes closest, {name}, {_error(best)}")
     if diagnosis.verdict == "none" and gains_beyond_chance(diagnosis):
-        return (f"No effect is needed: the base leaves {base} {diagnosis.unit}, no more than noise explains; the best, {name}, {_error(best)}, more "
-                "than chance and less than matters")
+        leaves = "more than noise explains, but no more than one reading strays by" if leaves_more_than_chance(diagnosis) else "no more than noise explains"
+        return (f"No effect is needed: the base leaves {base} {diagnosis.unit}, {leaves}, the floor's noise allowed for; the best, {name}, "
+                f"{_error(best)}, more than chance and less than matters")
     if diagnosis.reason == "none_helps" and gains_beyond_chance(diagnosis):
         return f"No candidate predicts the tests left out any better: the base leaves {base} {diagnosis.unit}, the best, {name}, {_error(best)}"
     if diagnosis.verdict == "none" or diagnosis.reason == "none_helps":

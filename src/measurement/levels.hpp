@@ -13,6 +13,7 @@
 //                                                                  sqrt(1 + e^2); at e = 1 it is as large as what one
 //                                                                  reading strays by. (With 10^4 readings a test of
 //                                                                  chance alone rejects errors that nobody can see.)
+//                                                                  So in each test, and on those left out in the mean
 //   beyond_practice   which rivals with odd numbers are named      the catalogue's ranges are met in practice and given
 //                                                                  to one digit; half a decade further, sqrt(10), is
 //                                                                  another order of magnitude

@@ -14,13 +14,22 @@
 namespace freestand::study {
 namespace {
 
-// Stands in a table whose model lacks something.
-constexpr const char* lacking = "# Their model leaves more of the tests than noise does.";
+// What stands in a table that is to be doubted, and what is said where a study takes it.
+struct Mark {
+  const char *line, *doubt;
+};
+constexpr Mark lacks{"# Their model leaves more of the tests than noise does.",
+                     "a model that leaves more of its tests than noise does (by how much its numbers are off, they do "
+                     "not tell): let diagnose look for what it lacks"},
+    wrong{"# Their measurements look wrong in a sign, a clock, a unit or an offset.",
+          "measurements that look wrong in a sign, a clock, a unit or an offset (compare says in which): settle that, "
+          "and "
+          "compare again"};
 
-bool is_of_a_model_that_lacks(const std::filesystem::path& file) {
+bool bears(const Mark& mark, const std::filesystem::path& file) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line) && line.starts_with('#');)
-    if (line.starts_with(lacking)) return true;
+    if (line.starts_with(mark.line)) return true;
   return false;
 }
 
@@ -79,12 +88,9 @@ class Tables {
             fmt::format("{} has a column `weight`, which counts for nothing (rows are drawn alike): repeat rows, as "
                         "often as each weighs",
                         (folder_ / name).string()));
-      if (is_of_a_model_that_lacks(folder_ / name))
-        doubtful_.push_back(
-            fmt::format("{} holds draws of a model that leaves more of its tests than noise does (by how much its "
-                        "numbers are off, they do not tell): "
-                        "let diagnose look for what it lacks",
-                        (folder_ / name).string()));
+      for (const Mark& mark : {lacks, wrong})
+        if (bears(mark, folder_ / name))
+          doubtful_.push_back(fmt::format("{} holds draws of {}", (folder_ / name).string(), mark.doubt));
     } catch (const Error& error) {
       problems_.add(line, fmt::format("the table of joint draws cannot be read ({}): give its path from the study's "
                                       "folder, or take the best values with --best",
@@ -108,7 +114,8 @@ std::vector<std::string> read_posterior_tables(YAML::Node root, const std::files
   return tables.doubtful();
 }
 
-std::string posterior_text(const measurement::ModelSpec& model, const measurement::Posterior& posterior) {
+std::string posterior_text(const measurement::ModelSpec& model, const measurement::Posterior& posterior,
+                           bool measurements_look_wrong) {
   if (posterior.draws.empty()) return "";
   std::string text =
       fmt::format("# Joint draws of the numbers that the calibration tests leave open{}.\n",
@@ -116,7 +123,8 @@ std::string posterior_text(const measurement::ModelSpec& model, const measuremen
                       ? fmt::format("; friction is that of another test (it differs by {:.2g} % from test to test)",
                                     100 * posterior.friction_scatter)
                       : "");
-  if (posterior.leaves_too_much) text += std::string(lacking) + "\n";
+  if (posterior.leaves_too_much) text += fmt::format("{}\n", lacks.line);
+  if (measurements_look_wrong) text += fmt::format("{}\n", wrong.line);
   for (std::size_t k = 0; k < model.free.size(); ++k) text += (k ? "," : "") + model.free[k].name;
   for (const measurement::Values& row : posterior.draws) {
     text += "\n";

@@ -25,6 +25,7 @@ inline std::vector<std::filesystem::path> files_of_study(const std::filesystem::
 std::vector<std::string> read_posterior_tables(YAML::Node root, const std::filesystem::path& folder, Problems&);
 
 // The text of a table. Empty where there are no draws.
-std::string posterior_text(const measurement::ModelSpec&, const measurement::Posterior&);
+std::string posterior_text(const measurement::ModelSpec&, const measurement::Posterior&,
+                           bool measurements_look_wrong = false);
 
 }  // namespace freestand::study

@@ -104,7 +104,8 @@ TEST(Decide, OnlyWhatHasMoreEffectsIsSaidToHaveMore) {
   ahead.misfit = 10 * samples;
   const Diagnosis d = decided_among(bench, {ahead, candidate(bench, {"static_friction"}, 1.05, 1.0)});
   EXPECT_EQ(d.effects, std::vector<std::string>{"static_friction"});
-  EXPECT_NE(d.sentences[0].find("rate_weakening (1.00), whose lead may be chance"), std::string::npos) << d.sentences[0];
+  EXPECT_NE(d.sentences[0].find("rate_weakening (1.00), whose lead may be chance"), std::string::npos)
+      << d.sentences[0];
 }
 
 // It is worse on the tests left out, but by no more than its own data would make it: "every other effect misses by more,
@@ -231,6 +232,25 @@ TEST(DecideByChance, WhatIsNotEnoughLeavesMoreThanChanceAndMoreThanTheNoise) {
       EXPECT_EQ(d.sentences.front().find("it still leaves 1.41") != std::string::npos, enough && p < chance_level)
           << d.sentences.front();
     }
+}
+
+// A mirrored sensor of one test of four: over all readings that is no more than one strays by, and of that test it is far more. It was said that no
+// effect is needed, of a test that was missed by 37 noise units.
+TEST(DecideByChance, WhatOneTestRefutesIsNotNearEnough) {
+  const Dataset data = cabinet_tests();
+  const Bench bench(data, 0);
+  Questions ask = by_misfit();
+  ask.enough = [](const Candidate&) { return chance(misfit_question, 0.001); };
+  for (const double of_one_test : {1.41, 1.42}) {
+    Diagnosis d = undecided(bench, 0);
+    d.base = candidate(bench, {}, 1.2, 1.2);
+    d.base.misfits_of_fit[1] = d.samples[1] * of_one_test * of_one_test;
+    decide(bench, d, ask);
+    EXPECT_EQ(d.verdict, of_one_test < adequate ? Verdict::none : Verdict::unknown) << of_one_test;
+    EXPECT_EQ(d.sentences.front().find(fmt::format("in {} alone, by 1.42", bench.test(1).id)) != std::string::npos,
+              of_one_test > adequate)
+        << d.sentences.front();
+  }
 }
 
 Candidate width_stated_wrongly(const Bench& bench, double error) {

@@ -353,5 +353,18 @@ TEST(Findings, FittedNumbersOfEffectsHaveBounds) {
   }
 }
 
+// Draws of the scatter of placements are even in it beforehand: an interval of nearly all that is allowed bounds it from nowhere, though
+// its lower end is far from the range's in logarithms.
+TEST(Findings, TheScatterOfPlacementsIsBoundByWhatDrawsBeginWith) {
+  ModelFit fit{.model = test::free_friction(), .x = {0.2, 0.01}};
+  fit.model.free.push_back({.name = "placement_scatter", .lower = 0.001, .upper = 0.5, .low = 0.001, .high = 0.5});
+  fit.model.placement_scatter = Number{.free = 1};
+  fit.intervals = {{0.19, 0.21}, {0.0077, 0.490}};
+  EXPECT_TRUE(open_ends(fit, 1).below);
+  EXPECT_TRUE(open_ends(fit, 1).above);
+  fit.intervals[1] = {0.1, 0.490};
+  EXPECT_FALSE(open_ends(fit, 1).below);
+}
+
 }  // namespace
 }  // namespace freestand::measurement

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "effects/effects.hpp"
@@ -12,6 +13,7 @@
 #include "measurement/fit/posterior.hpp"
 #include "measurement/laboratory/plausible.hpp"
 #include "measurement/made_tests.hpp"
+#include "measurement/tell/findings.hpp"
 #include "measurement/verdict/diagnose.hpp"
 #include "support/keyed_random.hpp"
 
@@ -52,6 +54,24 @@ TEST(Peaks, OneTestThatTellsLeavesANumberOpen) {
   widen_by_score(bench, {&fit}, run_here);
   EXPECT_EQ(fit.intervals[0].lower, fit.model.free[0].lower);
   EXPECT_EQ(fit.intervals[0].upper, fit.model.free[0].upper);
+}
+
+// Nothing moved: friction may be anything above what holds the block, and nothing below. It was told that the tests leave it open, and sweeps took the
+// middle of the range.
+TEST(Peaks, WhereAllStoodStillFrictionIsBoundFromBelow) {
+  Dataset data = made_peaks();
+  data.tests.erase(data.tests.begin(), data.tests.begin() + 3);  // 1.9 and 1.5 m/s2
+  const Bench bench(data, 0);
+  ModelFit fit{.model = test::free_friction(), .x = {0.4}, .score = 0, .intervals = {{0.4, 0.4}}};
+  fit.model.model = Model::slide;
+  const Posterior open = posterior(bench, fit, run_here);
+  ASSERT_GT(open.draws.size(), 100U);
+  const auto [least, most] = std::ranges::minmax(open.draws);
+  EXPECT_NEAR(least[0], 1.9 / 9.80665, 0.002);
+  EXPECT_NEAR(most[0], fit.model.free[0].upper, 0.01 * fit.model.free[0].upper);
+  take_intervals(open, fit);
+  EXPECT_TRUE(open_ends(fit, 0).above);
+  EXPECT_FALSE(open_ends(fit, 0).below);
 }
 
 TEST(Peaks, NoErrorIsInNoiseUnitsWhereNoNoiseIsStated) {

@@ -126,6 +126,9 @@ void measure_discrepancy(const Bench& bench, const ModelFit& fit, const std::vec
   out.slip_scatter_ln = std::sqrt(scatter2 + 1 / beside.weights(scatter2));
 }
 
+// Drawn evenly where tests only bound a number: an end of the bound is known to a 2000th of what is allowed.
+constexpr std::size_t points_of_a_bound = 2000;
+
 Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
   Posterior out;
   const auto tests = tests_of(bench.data(), Role::calibration);
@@ -140,7 +143,17 @@ Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
   };
   out.freedom = telling_tests(bench, tests, fit.model, fit.x).count() - p;
   measure_discrepancy(bench, fit, tests, out);
-  if (out.freedom < 1 || fit.x.empty()) return out;
+  if (fit.x.empty()) return out;
+  // All stood still, or all fell, and the model agrees: as likely wherever it does, and nowhere else.
+  if (misfits({fit.x}).front() == 0) {
+    const std::vector<Values> points = sobol_starts(fit.model.free, points_of_a_bound);
+    const std::vector<double> G = misfits(points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (G[i] == 0) out.draws.push_back(points[i]);
+    out.of_mean = out.draws;
+    return out;
+  }
+  if (out.freedom < 1) return out;
   out.dispersion = std::sqrt(misfits({fit.x}).front() / out.freedom);
   MatrixXd covariance = MatrixXd::Identity(static_cast<Index>(p), static_cast<Index>(p));
   for (std::size_t k = 0; k < fit.x.size(); ++k) {

@@ -27,6 +27,7 @@
 // A draw is then the friction of another test: the mean's, times exp(tau t) with Student's t, within the range of the number.
 //
 // Peaks: G is the sum of the tests' scores, s^2 = G(fit)/(n - p), nu = n - p, of the n tests whose peaks tell by how much the model is off.
+// Where all stood still, or fell, and the model agrees, draws are even over all numbers at which it does.
 // How far the slips of another test lie beside the model's is what the sensor's noise leaves of the scatter of ln(measured/model).
 // Outcomes: outcome_draws.hpp.
 //

@@ -344,9 +344,13 @@ OpenEnds open_ends(const ModelFit& fit, std::size_t number) {
   if (number >= fit.intervals.size()) return {};
   constexpr double within = 0.95, beyond = 0.5 * (1 - within), half = 0.5;
   const Free& free = fit.model.free[number];
-  const double lower = to_unit(free, fit.intervals[number].lower), upper = to_unit(free, fit.intervals[number].upper);
+  // As draws are spread beforehand: the scatter of placements evenly, others as fits move (outcome_draws.hpp).
+  const auto& placed = fit.model.placement_scatter;
+  const bool even = placed && placed->free == static_cast<int>(number);
+  const auto place = [&](double x) { return even ? (x - free.lower) / (free.upper - free.lower) : to_unit(free, x); };
+  const double lower = place(fit.intervals[number].lower), upper = place(fit.intervals[number].upper);
   const double widest = beyond / (half * within) * (upper - lower);
-  return {lower - to_unit(free, free.lower) <= widest, to_unit(free, free.upper) - upper <= widest};
+  return {lower - place(free.lower) <= widest, place(free.upper) - upper <= widest};
 }
 
 std::vector<std::string> undetermined(const ModelFit& fit) {

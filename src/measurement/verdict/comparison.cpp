@@ -110,7 +110,14 @@ std::vector<const Candidate*> CandidateComparison::rivals_by_left_out() const {
 }
 
 bool CandidateComparison::enough(const Candidate& c) {
-  return leaves_chance(c) || (histories_ && c.explained <= adequate && !c.laboratory);
+  return leaves_chance(c) || (histories_ && c.explained <= adequate && !c.laboratory && missed_tests(c).empty());
+}
+
+std::vector<std::size_t> CandidateComparison::missed_tests(const Candidate& c) const {
+  std::vector<std::size_t> missed;
+  for (std::size_t i = 0; i < c.misfits_of_fit.size(); ++i)
+    if (c.misfits_of_fit[i] > adequate * adequate * d_.samples[i]) missed.push_back(i);
+  return missed;
 }
 
 bool CandidateComparison::leaves_chance(const Candidate& c) {

@@ -29,6 +29,8 @@ class CandidateComparison {
   std::vector<const Candidate*> rivals_by_left_out() const;
   // A number that is stated wrongly, and no law that comes near: put right it leaves noise alone.
   bool enough(const Candidate&);
+  // Of the calibration tests those of which the fit to all leaves more than one reading strays by: their places among these.
+  std::vector<std::size_t> missed_tests(const Candidate&) const;
 
   // Errors on tests left out [noise units]. Where friction scatters, such a test is missed by what its own friction does: there with that
   // allowed for.

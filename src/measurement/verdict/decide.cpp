@@ -221,12 +221,26 @@ class Decision : CandidateComparison {
         return say(fmt::format("the model {}, and no effect of the catalogue lowers that by more than chance: {}",
                                beside_another_test(d_.base), check_the_tests));
       say(fmt::format(
-          "the model misses the measurements by {:.3g} where noise explains 1, and no effect of the "
+          "the model misses the measurements by {:.3g} where noise explains 1{}, and no effect of the "
           "catalogue {}{}: look at the recovered force",
-          d_.base.explained,
+          d_.base.explained, in_few_tests(d_.base),
           help() && !help()->chance() ? "predicts the tests left out any better" : "lowers that by more than chance",
           but_by_luck()));
     }
+  }
+
+  // Which tests refute a model that is near enough in all others.
+  std::string in_few_tests(const Candidate& c) const {
+    const std::vector<std::size_t> missed = missed_tests(c), tests = tests_of(bench_.data(), Role::calibration);
+    if (missed.empty() || 2 * missed.size() > tests.size()) return "";
+    std::vector<std::string> ids;
+    double most = 0;
+    for (const std::size_t i : missed) {
+      ids.push_back(bench_.test(tests[i]).id);
+      most = std::max(most, std::sqrt(c.misfits_of_fit[i] / d_.samples[i]));
+    }
+    return fmt::format(" (in {} alone, by {:.3g}{}: check {} first)", joined(ids), most,
+                       missed.size() > 1 ? " at most" : "", missed.size() > 1 ? "these" : "that one");
   }
 
   // What predicts the tests left out better than the base does, and no effect need be there for that.

@@ -9,7 +9,7 @@
 //   rivals    those whose own data would give the best its lead, and those that miss tests left out by less; where none is enough but by its own error, those
 //             of which that is so too
 //             Where the best is enough only if what is stated is off within its tolerances, all are judged so
-//   enough    histories: its misfit is one that data from itself may have, or its own error is no larger than the noise. What the laboratory states
+//   enough    histories: its misfit is one that data from itself may have, or its own error is no larger than the noise, in each test too. What the laboratory states
 //             wrongly is named only by the former: a number that is put right leaves noise alone
 //             peaks: tests left out are missed by no more than another test of the set would foretell them (chance_of_peaks.hpp)
 //
