@@ -212,8 +212,11 @@ LabTable read_lab_table(const std::filesystem::path& file, const std::string& a_
       const auto value = number(cells[k], way.decimal_comma);
       const bool known = value && std::isfinite(*value);
       if (!known && table.flaws[k].empty())
-        table.flaws[k] = place + shown(cells[k]) + " in column " + shown(table.columns[k]) +
-                         " is no finite number: correct it, or cut the file there";
+        table.flaws[k] =
+            place +
+            (cells[k].empty() ? "nothing stands in column " + shown(table.columns[k])
+                              : shown(cells[k]) + " in column " + shown(table.columns[k]) + " is no finite number") +
+            ": correct it, or cut the file there";
       if (known && table.with_comma.empty() && cells[k].find(',') != std::string::npos) table.with_comma = cells[k];
       table.values[k].push_back(known ? *value : std::numeric_limits<double>::quiet_NaN());
     }

@@ -21,7 +21,10 @@ std::string changes_told(const Study& now, const Study& before, Changes changes)
   if (changed.empty()) return "";
   const auto& [key, is, was] = changed.front();
   const std::string more = changed.size() > 1 ? fmt::format("; and {} more", changed.size() - 1) : "";
-  return fmt::format("{} was {}, is {}{}", key, shown(was), shown(is), more);
+  const auto value = [&name = key](const std::string& text) {
+    return text.empty() && name == "keep" ? "all" : shown(text);  // which is not written out
+  };
+  return fmt::format("{} was {}, is {}{}", key, value(was), value(is), more);
 }
 
 }  // namespace freestand::study

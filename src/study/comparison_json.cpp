@@ -245,7 +245,8 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
         open.stated_otherwise));
   if (open.leaves_too_much && !open.draws.empty())
     c.findings.push_back(
-        "the model leaves more of the tests than noise does: its intervals and draws do not tell by how much its "
+        "by the readings that the floor's noise does not turn elsewhere the model leaves more of the tests than noise "
+        "does: its intervals and draws do not tell by how much its "
         "numbers "
         "are off, nor do sweeps that take them (fitted.yaml): let diagnose look for what it lacks first");
   if (const std::string unread = unread_floors(bench, c.tests); !unread.empty()) c.findings.push_back(unread);

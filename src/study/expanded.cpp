@@ -276,7 +276,7 @@ std::string until_text(const UntilPart& until) {
 }
 
 std::string keep_text(const KeepPart& keep) {
-  return keep.one_in == 0 ? "none" : keep.one_in == 1 ? "all" : fmt::format("{{thin: {}}}", keep.one_in);
+  return keep.one_in == 0 ? "none" : fmt::format("{{thin: {}}}", keep.one_in);
 }
 
 std::string forces_text(const Study& study) { return study.contact_forces ? "contact_forces: true\n" : ""; }
@@ -288,7 +288,7 @@ std::string samples_text(const Study& study) {
     text += until_text(*study.until);
   else
     text += fmt::format("samples: {}\n", study.samples);
-  text += fmt::format("keep: {}\n", keep_text(study.keep));
+  if (study.keep.one_in != 1) text += fmt::format("keep: {}\n", keep_text(study.keep));
   text += fmt::format("design: {}\n", name(study.design));
   text += height_text(study) + forces_text(study);
   if (study.slip_by_side) text += "slip_by_side: true\n";

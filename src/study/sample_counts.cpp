@@ -6,6 +6,7 @@
 #include <freestand/error.hpp>
 #include <utility>
 
+#include "base/random.hpp"
 #include "io/tally_file.hpp"
 
 namespace freestand::study {
@@ -24,7 +25,7 @@ std::string counts_fingerprint(const Study& study) {
   counted.fragility.false_discovery = whatever.false_discovery;
   counted.fragility.adequate = whatever.adequate;
   counted.fragility.empirical_fallback = whatever.empirical_fallback;
-  return fingerprint(counted) + io::tally_format;
+  return fmt::format("{:016x}", random::stable_hash(fingerprint(counted) + io::tally_format));
 }
 
 SampleCounts::SampleCounts(const Study& study, const Target& target, const std::vector<int>& motion_group,

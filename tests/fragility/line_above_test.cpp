@@ -106,6 +106,12 @@ TEST(LineAbove, WithoutASlopeIsTheFitAtOnePlace) {
   EXPECT_NEAR(fit.at.never, plain.never, 1e-6);
 }
 
+// Where Phi itself is still a number, beyond where the series begins.
+TEST(LineAbove, TheLogarithmOfATailIsFinite) {
+  for (const double x : {-30.5, -35.0, -37.0}) EXPECT_NEAR(ln_normal_cdf(x), std::log(normal_cdf(x)), 5e-6) << x;
+  EXPECT_TRUE(std::isfinite(ln_normal_cdf(-1e3)));
+}
+
 TEST(LineAbove, TailsThatNoLognormalHasAreNone) {
   const LineCell cells[] = {{-0.3, 50, 5}, {0.3, 50, 5}};
   EXPECT_TRUE(std::isnan(fit_line_above({100, 0, 8, 10, 50, 0}, cells, 1).at.omega));

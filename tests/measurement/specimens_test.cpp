@@ -57,5 +57,24 @@ TEST(Specimens, OfOneFrictionAreNotToldButByChance) {
   EXPECT_EQ(friction_of_specimens(Bench(alike, 0), {.of_tests = {0.6, 0.6, 0.6, 1, 1, 1, 1, 1}}), "");
 }
 
+// One block of five was another one: its friction was called scatter of 18 %, and the test that tells was not named.
+TEST(Specimens, OneTestOfAnotherFrictionIsTold) {
+  Dataset data = of_two_specimens();
+  data.tests.resize(5);
+  const Bench bench(data, 0);
+  EXPECT_THAT(test_of_other_friction(bench, {.of_tests = {1, 1.01, 1.5, 0.99, 1}}),
+              testing::HasSubstr("the friction of t3 is 1.5 times that of the others"));
+  EXPECT_EQ(test_of_other_friction(bench, {.of_tests = {1, 1, 1, 1, 1}}), "");
+  EXPECT_EQ(test_of_other_friction(bench, {.of_tests = {0.9, 1.01, 1.15, 0.97, 1.04}}), "");
+  constexpr int sets = 2000;
+  int told = 0;
+  for (std::uint64_t key = 0; key < sets; ++key) {
+    OwnNumbers own;
+    for (std::uint64_t k = 0; k < 5; ++k) own.of_tests.push_back(std::exp(0.06 * random::standard_normal(6, key, k)));
+    told += !test_of_other_friction(bench, own).empty();
+  }
+  EXPECT_NEAR(told, 0.05 * sets, 3 * std::sqrt(0.05 * 0.95 * sets));
+}
+
 }  // namespace
 }  // namespace freestand::measurement

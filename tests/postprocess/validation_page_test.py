@@ -117,6 +117,11 @@ class ThePage(Temporary):
                     self.assertIn(needle, page.text)
                 self.assertNotIn("no more than chance", page.text)
                 self.assertNotIn("by more than chance", page.text)
+        enough = {"question": "is it enough", "about": "the model as it is", "p": 0.0005, "level": 0.05, "observed": 9, "chance_reaches": 5, "simulations": 2000,
+                  "told_apart": None}
+        page, _ = self.page(make.diagnosis(self.folder / "near_enough", "none", tests_of_chance=[helps, enough]))
+        self.assertIn("more than noise explains, but no more than one reading strays by", page.text)
+        self.assertNotIn("no more than noise explains", page.text)
 
     def test_a_fault_of_the_laboratory_is_no_effect(self):
         width = make.candidate("width_as_stated", 1.02, True)

@@ -30,7 +30,9 @@ std::string fault_sentence(const std::string& name, double number) {
 
 std::string at_its_limit(const Free& free, double number) {
   if (std::min(number - free.lower, free.upper - number) >= 1e-3 * (free.upper - free.lower)) return "";
-  return ", which is as far as the stated tolerance lets it be off; it may be off by more";
+  return ", which is as far as is sought, three times the tolerance that the data set states or else the usual one; it "
+         "may "
+         "be off by more";
 }
 
 std::vector<StatedNumber> stated_numbers(const Tolerance& tolerance, const ModelSpec& model) {

@@ -15,7 +15,7 @@ inline constexpr const char *width_fault = "width_as_stated", *centre_fault = "c
 bool is_laboratory_fault(const std::string& name);
 // "the width is 1.9 % smaller than stated". number: the factor, or the time [s].
 std::string fault_sentence(const std::string& name, double number);
-// ", which is as far as the stated tolerance lets it be off; ..." where a number ended there; else nothing.
+// ", which is as far as is sought, ..." where a number ended there; else nothing.
 std::string at_its_limit(const Free& free, double number);
 // "the responses are stamped 0.012 s late against the floor's channel".
 std::string clock_sentence(const std::string& whose, double late_s);

@@ -75,4 +75,26 @@ std::string friction_of_specimens(const Bench& bench, const OwnNumbers& friction
       fmt::join(told, "; "), 100 * std::sqrt(within));
 }
 
+std::string test_of_other_friction(const Bench& bench, const OwnNumbers& friction) {
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const auto n = static_cast<double>(friction.of_tests.size());
+  if (n < 3) return {};
+  std::vector<double> ln;
+  double sum = 0, squares = 0;
+  for (const double factor : friction.of_tests) sum += ln.emplace_back(std::log(factor));
+  for (const double one : ln) squares += std::pow(one - sum / n, 2);
+  const auto furthest = static_cast<std::size_t>(
+      std::ranges::max_element(ln, {}, [&](double one) { return std::abs(one - sum / n); }) - ln.begin());
+  const double g2 = std::pow(ln[furthest] - sum / n, 2) * (n - 1) / squares;  // in squared standard deviations
+  const double left = std::pow(n - 1, 2) - n * g2;
+  const double p = left > 0 ? std::min(1.0, 2 * n * gsl_cdf_tdist_Q(std::sqrt(n * (n - 2) * g2 / left), n - 2)) : 0;
+  if (!(squares > 0) || p > chance_level) return {};
+  const double others = (sum - ln[furthest]) / (n - 1);
+  return fmt::format(
+      "the friction of {} is {:.2g} times that of the others, further off than chance puts one of {:g} (p {:.2g}): is "
+      "it of "
+      "another object, or on another floor?",
+      bench.test(tests[furthest]).id, std::exp(ln[furthest] - others), n, p);
+}
+
 }  // namespace freestand::measurement

@@ -1,4 +1,5 @@
-// Is a friction that differs from test to test one that differs from specimen to specimen? Specimens are told by their dimensions.
+// Is a friction that differs from test to test one that differs from specimen to specimen, or that of a single test? Specimens are told by
+// their dimensions.
 #pragma once
 
 #include <string>
@@ -10,6 +11,10 @@ namespace freestand::measurement {
 // A sentence where the logarithms of the tests' frictions differ between specimens by more than chance, beside how they scatter within them
 // (analysis of variance, F test); else empty.
 std::string friction_of_specimens(const Bench&, const OwnNumbers& friction);
+
+// A sentence where the logarithm of one test's friction lies further from the mean of all than chance would put the furthest of so many that
+// scatter alike (F. E. Grubbs, Ann. Math. Stat. 21, 1950); else empty.
+std::string test_of_other_friction(const Bench&, const OwnNumbers& friction);
 
 // A sentence where the calibration tests are of several specimens, one of which may have an effect that another has not: which tests are
 // of which; else empty.
