@@ -22,7 +22,7 @@ std::string changes_told(const Study& now, const Study& before, Changes changes)
   const auto& [key, is, was] = changed.front();
   const std::string more = changed.size() > 1 ? fmt::format("; and {} more", changed.size() - 1) : "";
   const auto value = [&name = key](const std::string& text) {
-    return text.empty() && name == "keep" ? "all" : shown(text);  // which is not written out
+    return text == "nothing" && name == "keep" ? "all" : shown(text);  // which is not written out
   };
   return fmt::format("{} was {}, is {}{}", key, value(was), value(is), more);
 }

@@ -99,7 +99,7 @@ std::optional<Distribution> read_mapping(const YAML::Node& node, const std::stri
   if (found.empty()) {
     const std::string first = node.size() ? node.begin()->first.Scalar() : "";
     std::vector<std::string> meant = kinds_of_distribution;
-    meant.emplace_back("calibrate");  // in a study that is held against measurements
+    if (first != "calibrate") meant.emplace_back("calibrate");  // in a study that is held against measurements
     problems.add(line, fmt::format("{} has no known distribution ({}): use one of {}", where,
                                    nearest(first, meant).empty() ? "found " + (first.empty() ? "nothing" : shown(first))
                                                                  : hint(first, meant),

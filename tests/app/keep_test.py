@@ -130,8 +130,8 @@ class Keep(InFolder):
 
     def test_check_tells_how_large_it_is(self):
         factor = {"B": 1, "kB": 1e3, "MB": 1e6, "GB": 1e9}
-        for keep, files in (("all", ("samples.h5",)), ("none", ("samples.h5", "tally.h5"))):
-            study, out = self.study(keep, samples=20000), self.folder / keep
+        for keep, samples, files in (("all", 20000, ("samples.h5",)), ("all", 64, ("samples.h5",)), ("none", 20000, ("samples.h5", "tally.h5"))):
+            study, out = self.study(keep, samples=samples), self.folder / f"{keep}{samples}"
             told = self.succeed(["run", study, "--check"]).stdout
             number, unit = re.search(r"kept: at most (\S+) (\w*B) in samples.h5", told).groups()
             self.succeed(["sweep", study, "-o", out, "--quiet"])

@@ -23,6 +23,8 @@ TEST(ChangedKeys, TheFirstIsNamedWithBothValues) {
   EXPECT_EQ(told(plain + longer + "seed: 3\n", plain + chain), "seed was 1, is 3; and 1 more");
   EXPECT_THAT(told(plain + chain, plain), testing::StartsWith("chain.slack_m was nothing, is 0.05; and "));
   EXPECT_THAT(told(plain, plain + chain), testing::StartsWith("chain.slack_m was 0.05, is nothing; and "));
+  EXPECT_EQ(told(plain + "keep: none\n", plain), "keep was all, is none");
+  EXPECT_EQ(told(plain, plain + "keep: none\n"), "keep was none, is all");
   EXPECT_EQ(told(test::block + "friction: {mu: 0.3}\n" + test::motions + test::samples + test::fragility, plain),
             "friction.mu was 0.25, is 0.3");
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gsl/gsl_cdf.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "measurement/levels.hpp"

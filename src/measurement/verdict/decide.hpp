@@ -11,7 +11,7 @@
 //             Where the best is enough only if what is stated is off within its tolerances, all are judged so
 //   enough    histories: its misfit is one that data from itself may have, or its own error is no larger than the noise, in each test too. What the laboratory states
 //             wrongly is named only by the former: a number that is put right leaves noise alone
-//             peaks: tests left out are missed by no more than another test of the set would foretell them (chance_of_peaks.hpp)
+//             peaks: tests left out are missed by no more than twice what one test misses another by, in the mean square (chance_of_peaks.hpp)
 //
 // Of the best and its rivals, and of all candidates where none helps, the one of least left-out error is told as the best.
 // What leaves less still, and what does as well with odd numbers, has a remark that says why it is not named.
