@@ -16,8 +16,8 @@ BinSums::BinSums(const Eigen::RowVectorXd& row)
       ln_im(row(7)),
       ln_im2(row(8)),
       ln_times_ln_im(row(9)),
-      moved_in(row.segment<cells>(10).transpose()),
-      still_in(row.segment<cells>(10 + cells).transpose()) {}
+      moved_in(row.segment<cells>(counts).transpose()),
+      still_in(row.segment<cells>(counts + cells).transpose()) {}
 
 Eigen::MatrixXd sums_by_group(const Tally& tally, std::size_t edp, std::size_t bin) {
   const std::size_t groups = tally.layout().groups, capacities = tally.layout().capacity_count[edp];
@@ -25,13 +25,13 @@ Eigen::MatrixXd sums_by_group(const Tally& tally, std::size_t edp, std::size_t b
   for (std::size_t g = 0; g < groups; ++g) {
     const Counts c = tally.counts(edp, bin, g);
     const auto row = static_cast<Eigen::Index>(g);
-    table.row(row).head<10>() << static_cast<double>(c.n), static_cast<double>(c.still), static_cast<double>(c.over),
-        static_cast<double>(c.moved), static_cast<double>(c.without_ln_im), c.sum_ln, c.sum_ln2, c.sum_ln_im,
-        c.sum_ln_im2, c.sum_ln_times_ln_im;
+    table.row(row).head<BinSums::counts>() << static_cast<double>(c.n), static_cast<double>(c.still),
+        static_cast<double>(c.over), static_cast<double>(c.moved), static_cast<double>(c.without_ln_im), c.sum_ln,
+        c.sum_ln2, c.sum_ln_im, c.sum_ln_im2, c.sum_ln_times_ln_im;
     for (Eigen::Index k = 0; k < BinSums::cells; ++k) {
       const std::size_t cell = bin * TallyLayout::cells_per_bin + static_cast<std::size_t>(k);
-      table(row, 10 + k) = static_cast<double>(tally.moved_in_cell(edp, cell, g));
-      table(row, 10 + BinSums::cells + k) = static_cast<double>(tally.still_in_cell(edp, cell, g));
+      table(row, BinSums::counts + k) = static_cast<double>(tally.moved_in_cell(edp, cell, g));
+      table(row, BinSums::counts + BinSums::cells + k) = static_cast<double>(tally.still_in_cell(edp, cell, g));
     }
     for (std::size_t k = 0; k < capacities; ++k)
       table(row, BinSums::size + static_cast<Eigen::Index>(k)) = static_cast<double>(tally.exceeding(edp, bin, g, k));

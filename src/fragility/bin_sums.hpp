@@ -11,7 +11,7 @@ namespace freestand::fragility {
 
 // The fields of Counts as real numbers, those of each fine cell of IM that moved, and that stood still; then the samples above each capacity.
 struct BinSums {
-  static constexpr Eigen::Index cells = TallyLayout::cells_per_bin, size = 10 + 2 * cells;
+  static constexpr Eigen::Index cells = TallyLayout::cells_per_bin, counts = 10, size = counts + 2 * cells;
   using InCells = Eigen::Array<double, cells, 1>;
   double n, still, over, moved, without_ln_im, ln, ln2, ln_im, ln_im2, ln_times_ln_im;
   InCells moved_in, still_in;

@@ -237,13 +237,11 @@ void FolderLock::take_over(const std::string& text) const {
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   ::close(descriptor);
-  try {
-    if (const auto there = look_at(path_); there && there->text == text) take_away(path_);
-  } catch (const Error&) {
-    ::unlink(turn.c_str());
-    throw;
-  }
-  ::unlink(turn.c_str());
+  const struct Turn {
+    const fs::path& file;
+    ~Turn() { ::unlink(file.c_str()); }
+  } ours{turn};
+  if (const auto there = look_at(path_); there && there->text == text) take_away(path_);
 }
 
 bool FolderLock::is_ours() const {

@@ -24,6 +24,19 @@ Dataset of_two_specimens() {
   return data;
 }
 
+// Of sets whose frictions only scatter, alike, something is told of one in twenty.
+void expect_told_by_chance(int sets, const Bench& bench, std::uint64_t stream,
+                           std::string (*tell)(const Bench&, const OwnNumbers&)) {
+  int told = 0;
+  for (int key = 0; key < sets; ++key) {
+    OwnNumbers own;
+    for (std::uint64_t k = 0; k < bench.size(); ++k)
+      own.of_tests.push_back(std::exp(0.06 * random::standard_normal(stream, static_cast<std::uint64_t>(key), k)));
+    told += !tell(bench, own).empty();
+  }
+  EXPECT_NEAR(told, 0.05 * sets, 3 * std::sqrt(0.05 * 0.95 * sets));
+}
+
 TEST(Specimens, AreTheirTestsWithTheSameDimensions) {
   Dataset data = of_two_specimens();
   data.tests[1].role = Role::holdout;
@@ -44,14 +57,7 @@ TEST(Specimens, OfTwoFrictionsAreTold) {
 TEST(Specimens, OfOneFrictionAreNotToldButByChance) {
   const Dataset data = of_two_specimens();
   const Bench bench(data, 0);
-  constexpr int sets = 400;
-  int told = 0;
-  for (std::uint64_t key = 0; key < sets; ++key) {
-    OwnNumbers own;
-    for (std::uint64_t k = 0; k < 8; ++k) own.of_tests.push_back(std::exp(0.06 * random::standard_normal(5, key, k)));
-    told += !friction_of_specimens(bench, own).empty();
-  }
-  EXPECT_NEAR(told, 0.05 * sets, 3 * std::sqrt(0.05 * 0.95 * sets));
+  expect_told_by_chance(400, bench, 5, friction_of_specimens);
   Dataset alike = data;
   for (measurement::Test& t : alike.tests) t.specimen = alike.tests[0].specimen;
   EXPECT_EQ(friction_of_specimens(Bench(alike, 0), {.of_tests = {0.6, 0.6, 0.6, 1, 1, 1, 1, 1}}), "");
@@ -66,14 +72,7 @@ TEST(Specimens, OneTestOfAnotherFrictionIsTold) {
               testing::HasSubstr("the friction of t3 is 1.5 times that of the others"));
   EXPECT_EQ(test_of_other_friction(bench, {.of_tests = {1, 1, 1, 1, 1}}), "");
   EXPECT_EQ(test_of_other_friction(bench, {.of_tests = {0.9, 1.01, 1.15, 0.97, 1.04}}), "");
-  constexpr int sets = 2000;
-  int told = 0;
-  for (std::uint64_t key = 0; key < sets; ++key) {
-    OwnNumbers own;
-    for (std::uint64_t k = 0; k < 5; ++k) own.of_tests.push_back(std::exp(0.06 * random::standard_normal(6, key, k)));
-    told += !test_of_other_friction(bench, own).empty();
-  }
-  EXPECT_NEAR(told, 0.05 * sets, 3 * std::sqrt(0.05 * 0.95 * sets));
+  expect_told_by_chance(2000, bench, 6, test_of_other_friction);
 }
 
 }  // namespace

@@ -144,8 +144,9 @@ Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
   out.freedom = telling_tests(bench, tests, fit.model, fit.x).count() - p;
   measure_discrepancy(bench, fit, tests, out);
   if (fit.x.empty()) return out;
+  const double at_fit = misfits({fit.x}).front();
   // All stood still, or all fell, and the model agrees: as likely wherever it does, and nowhere else.
-  if (misfits({fit.x}).front() == 0) {
+  if (at_fit == 0) {
     const std::vector<Values> points = sobol_starts(fit.model.free, points_of_a_bound);
     const std::vector<double> G = misfits(points);
     for (std::size_t i = 0; i < points.size(); ++i)
@@ -154,7 +155,7 @@ Posterior of_peaks(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
     return out;
   }
   if (out.freedom < 1) return out;
-  out.dispersion = std::sqrt(misfits({fit.x}).front() / out.freedom);
+  out.dispersion = std::sqrt(at_fit / out.freedom);
   MatrixXd covariance = MatrixXd::Identity(static_cast<Index>(p), static_cast<Index>(p));
   for (std::size_t k = 0; k < fit.x.size(); ++k) {
     const Free& free = fit.model.free[k];

@@ -177,15 +177,13 @@ class Decision : CandidateComparison {
 
   // Of peaks: how far a model misses tests left out beside what another test of the set tells of them.
   std::string beside_another_test(const Candidate& c) const {
-    const auto error = [&](const std::vector<TestError>& errors) {
-      return pooled(bench_, tests_of(bench_.data(), Role::calibration), errors).error;
-    };
+    const double of_another =
+        pooled(bench_, tests_of(bench_.data(), Role::calibration), errors_of_another_test(bench_)).error;
     const Chance* chance = answer(d_, misfit_question, whole(c));
     return fmt::format(
         "misses the peaks of tests left out by {} (ln), where one test misses another by {}, more than chance makes (p "
         "{:.2g})",
-        three_digits(error(c.fit.left_out)), three_digits(error(errors_of_another_test(bench_))),
-        chance ? chance->p : 0);
+        three_digits(pooled_left_out(c)), three_digits(of_another), chance ? chance->p : 0);
   }
   static constexpr const char* check_the_tests =
       "check units, dimensions and signs, and which record belongs to which test";
