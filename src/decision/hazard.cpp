@@ -51,13 +51,29 @@ struct Columns {
   std::size_t im, rate, period;
 };
 
+// An intensity by its name, and by that with a period, as sa_g:0.5.
+struct NamedMeasure {
+  std::string name;
+  double period_s = 0;
+};
+
+NamedMeasure measure_of(const std::string& column) {
+  const std::size_t colon = column.find(':');
+  if (colon == std::string::npos) return {column};
+  char* end = nullptr;
+  const double period = std::strtod(column.c_str() + colon + 1, &end);
+  if (*end != '\0' || !(period > 0) || !std::isfinite(period)) return {column};
+  return {column.substr(0, colon), period};
+}
+
 Columns columns_of(const Line& header, const std::string& file, const std::vector<std::string>& measures,
                    HazardCurve& curve) {
   const std::size_t none = header.cells.size();
   Columns found{none, none, none};
   for (std::size_t i = 0; i < header.cells.size(); ++i) {
     const std::string& name = header.cells[i];
-    const bool measure = std::find(measures.begin(), measures.end(), name) != measures.end();
+    const NamedMeasure named = measure_of(name);
+    const bool measure = std::find(measures.begin(), measures.end(), named.name) != measures.end();
     std::size_t* column = name == "annual_rate" ? &found.rate
                           : name == "period_s"  ? &found.period
                           : measure             ? &found.im
@@ -87,7 +103,7 @@ Columns columns_of(const Line& header, const std::string& file, const std::vecto
     if (*column != none)
       refuse(file, header.number, fmt::format("a second column like {} (which one counts?): leave one", shown(name)));
     *column = i;
-    if (measure) curve.measure = name;
+    if (measure) curve.measure = named.name, curve.period_s = named.period_s;
   }
   if (found.im == none)
     refuse(file, header.number,
@@ -113,9 +129,10 @@ double number(const Line& line, std::size_t column, const std::string& name, con
 
 void add_point(const Line& line, double im, double rate, const std::string& file, HazardCurve& curve) {
   if (!curve.im.empty() && im <= curve.last())
-    refuse(
-        file, line.number,
-        fmt::format("{} falls from {} to {} (or stays): sort the lines by intensity", curve.measure, curve.last(), im));
+    refuse(file, line.number,
+           im < curve.last()
+               ? fmt::format("{} falls from {} to {}: sort the lines by intensity", curve.measure, curve.last(), im)
+               : fmt::format("{} is {} again (which rate counts?): leave one of the two lines", curve.measure, im));
   if (!curve.im.empty() && rate > curve.annual_rate.back())
     refuse(file, line.number,
            fmt::format(
@@ -162,7 +179,7 @@ HazardCurve parse_hazard(const std::string& text, const std::string& file, const
               file, curve);
     if (columns.period == lines.front().cells.size()) continue;
     const double period = number(line, columns.period, "period_s", file);
-    if (i > 1 && period != curve.period_s)
+    if (curve.period_s > 0 && period != curve.period_s)
       refuse(file, line.number, "period_s changes (one curve is of one period): give each a file of its own");
     curve.period_s = period;
   }

@@ -10,16 +10,18 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double scale = 1 << 20;
-constexpr double least_of_a_class = 50;
 constexpr int fewest_classes = 4;
 
 std::int64_t fixed(double value) { return std::llround(value * scale); }
 
 // How many neighbouring classes are joined.
 int joined(const Parameter& parameter, double samples) {
+  const bool even = parameter.design != 0;
+  const double least = even ? 25 : 12;  // samples of a class
+  const int most = even ? 32 : parameter.classes;
   int join = 1;
   while (parameter.ordered && parameter.classes / join > fewest_classes &&
-         samples * join < least_of_a_class * parameter.classes)
+         (parameter.classes / join > most || samples * join < least * parameter.classes))
     join *= 2;
   return join;
 }
@@ -76,6 +78,22 @@ ShareTally::Sums ShareTally::cell(std::size_t parameter, std::size_t of_class, s
   const double n = static_cast<double>(at[0]), sum = static_cast<double>(at[1]);
   if (answers_[answer].yes_or_no) return {n, sum, sum};
   return {n, sum / scale, static_cast<double>(at[2]) / scale};
+}
+
+double ShareTally::jump(const std::vector<Sums>& of_class) {
+  std::vector<double> within;
+  Sums all;
+  for (const Sums& one : of_class) {
+    all += one;
+    if (one.n > 0) within.push_back(one.squares - one.sum * one.sum / one.n);
+  }
+  double most = 0;
+  for (std::size_t k = 0; k < within.size() && within.size() > 1; ++k) {
+    const double before = within[k > 0 ? k - 1 : k + 1], behind = within[k + 1 < within.size() ? k + 1 : k - 1];
+    most = std::max(most, within[k] - 0.5 * (before + behind));
+  }
+  const double total = all.squares - all.sum * all.sum / std::max(all.n, 1.0);
+  return total > 0 ? most / total : 0;
 }
 
 double ShareTally::share(const std::vector<Sums>& of_class, double evenness) {
@@ -169,10 +187,11 @@ ShareTally::Shares ShareTally::shares(std::size_t p, std::size_t answer, const s
     for (std::size_t i = 0; i + 1 < classes.size(); ++i) pairs[i / 2] += classes[i];
     pairs.back() += classes.back();
     const double step = fine - share(pairs, c);
-    return {fine + step / 2, std::abs(step) / 6};
+    return {fine + std::min(step, 1 - fine) * 2 / 3, std::abs(step) / 3};
   };
   const Refined whole = refined(total, evenness);
-  Shares found{whole.value, std::vector<double>(of_group.size(), nan), 0, whole.lost};
+  const double lost = parameters_[p].ordered ? std::max(whole.lost, jump(total) / 2) : whole.lost;
+  Shares found{whole.value, std::vector<double>(of_group.size(), nan), 0, lost};
   for (const Sums& one : total) found.classes += one.n > 0;
   for (std::size_t g = 0; g < of_group.size(); ++g) {
     if (of_group[g].n == 0) continue;
@@ -225,10 +244,11 @@ ShareRow ShareTally::row(std::size_t answer, double confidence) const {
     const Shares one = shares(p, answer, of_group, even.c);
     const double between = even.scatter * std::max(one.classes - 1, 0.0) / std::max(all.n - 1, 1.0);
     const double error = std::hypot(between, one.lost);
-    row.share.push_back(
-        wider(design == 0 ? fragility::jackknife_share(one.whole, left_out_of(one), confidence, all.n / one.classes)
-                          : fragility::jackknife(one.whole, left_out_of(one), confidence),
-              error));
+    fragility::Estimate share =
+        design == 0 ? fragility::jackknife_share(one.whole, left_out_of(one), confidence, all.n / one.classes)
+                    : fragility::jackknife(one.whole, left_out_of(one), confidence);
+    share.value = std::min(share.value, 1.0);
+    row.share.push_back(wider(share, error));
     squares += error * error;
     together.whole += one.whole;
     for (std::size_t g = 0; g < of_group.size(); ++g) together.without[g] += one.without[g];

@@ -2,23 +2,23 @@
 //
 //   share of X in Y = Var(E[Y | X]) / Var(Y)           I. M. Sobol, Mathematical Modelling and Computational Experiments 1, 1993
 //
-// the part of the variance that would go if X were known. The samples are parted by X into K classes of equal probability (32, or so
-// few that each holds 50 samples; the values of a choice, the motions and the rows of a table of joint draws are classes by themselves), and
+// the part of the variance that would go if X were known. The samples are parted by X into K classes of equal probability (64, or so
+// few that each holds 12 samples, of an even design 32 and 25; the values of a choice, the motions and the rows of a table of joint draws are classes by themselves), and
 //
 //   share = (r - q)/(1 - q),   r = 1 - sum_k SS_k / SS,   q = c (K - 1)/(N - 1)
 //
 // with SS the sum of squares about the mean, SS_k that of a class about its own: q takes away what K class means scatter by chance. Of
-// independent draws, and of the permutations of a latin hypercube, c = 1 (T. L. Kelley, Proc. Natl. Acad. Sci. 21, 1935). The means of
-// an even design scatter less, and how much less is measured: parameters that the answer cannot depend on (`idle`, other dimensions of
-// the same design) are parted into classes too, and c is the mean of their r (N - 1)/(K - 1); how that differs among them goes into
-// the error. What is lost inside the classes is 1/K^2 of the share of a straight line over a uniform parameter, and nearer to 1/K
-// where a few draws lie far out: from K/2 to K classes it falls by three times what is left, or by one and a half times. So half of
-// that step is added, and a sixth of it goes into the error (L. F. Richardson, 1911). Of an even design the ratio of variances has no
-// known distribution, and the interval is laid about the share itself. Samples that share a motion are not independent: motions are
-// left out in turn (jackknife.hpp), for the error and against the bias of few motions. Groups that are parts of one even design err
-// less than they differ: without scrambles their part of the variance is taken times c, which is still too much rather than too
-// little, since c is of class means and the design as even throughout. A share that is zero comes out as zero on the average, so now
-// and then below it.
+// independent draws, and of the permutations of a latin hypercube, c = 1 (T. L. Kelley, Proc. Natl. Acad. Sci. 21, 1935). The means of an
+// even design scatter less, and how much less is measured: parameters that the answer cannot depend on (`idle`, other dimensions of the
+// same design) are parted into classes too, and c is the mean of their r (N - 1)/(K - 1); how that differs among them goes into the error.
+// What is lost inside the classes is 1/K^2 of the share of a straight line over a uniform parameter, and 1/(6K) of a step's on the average
+// over where it may lie: from K/2 to K classes it falls by three times what is left, or by once that. So two thirds of that step are added,
+// no more than of what is missing to 1, and a third of it goes into the error (L. F. Richardson, 1911). Of an even design the ratio of
+// variances has no known distribution, and the interval is laid about the share itself. Samples that share a motion are not independent:
+// motions are left out in turn (jackknife.hpp), for the error and against the bias of few motions. Groups that are parts of one even design
+// err less than they differ: without scrambles their part of the variance is taken times c, which is still too much rather than too little,
+// since c is of class means and the design as even throughout. A share that is zero comes out as zero on the average, so now and then below
+// it.
 #pragma once
 
 #include <cstdint>
@@ -34,7 +34,7 @@ namespace freestand::decision {
 // A sampled parameter and how many classes its samples come in.
 struct Parameter {
   std::string name, unit = "1";
-  int classes = 32;
+  int classes = 64;
   bool ordered = true;  // neighbouring classes may be joined
   // The design that its draws are even in: 0 none, independent draws. Of each other one there are idle parameters behind the others.
   int design = 0;
@@ -84,6 +84,8 @@ class ShareTally {
   std::size_t place(std::size_t parameter, std::size_t of_class, std::size_t group, std::size_t answer) const;
   // By classes, with c.
   static double share(const std::vector<Sums>& of_class, double evenness);
+  // What a step of the answer may lose in the class that it lies in: by how much more a class scatters than its neighbours, of all.
+  static double jump(const std::vector<Sums>& of_class);
   struct Evenness {
     double c, scatter;  // from one idle parameter to the next
   };

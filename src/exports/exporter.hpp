@@ -43,8 +43,7 @@ struct Format {
   std::string note = {};            // a plain sentence that goes with every file of it
   // Plain sentences on what it makes of these curves.
   std::vector<std::string> (*notes_on)(const Model&) = nullptr;
-  // What stands for --asset-category where nothing was said; none: "".
-  std::string (*usual_category)(std::size_t states) = nullptr;
+  std::string usual_category = {};  // what stands for --asset-category where nothing was said
   // Refuses, with an Error, what the target cannot express.
   void (*refuse)(const Model&) = nullptr;
   // The files; the first is named `name`.

@@ -128,7 +128,7 @@ Refusal make_lognormal(LimitState& state, const Wanted& wanted) {
     return fmt::format("the lognormal of {} is not adequate (it may be off by {:.2g}): use --form discrete",
                        label(wanted), fitted.off_by);
   state.curve = lognormal(fitted.median, fitted.dispersion);
-  state.why = fmt::format("the fitted lognormal is off by at most {:.2g}", fitted.off_by);
+  state.why = fmt::format("the fitted lognormal is off the shares of bins by at most {:.2g}", fitted.off_by);
   return {};
 }
 

@@ -45,8 +45,6 @@ constexpr Inventory inventories[] = {{"building", 3},     {"bridge", 4}, {"elect
                                      {"gas_facility", 4}, {"road", 4},   {"water_facility", 4},
                                      {"pipeline", 4}};
 
-std::string usual_category(std::size_t states) { return states == 4 ? "electric_facility" : "building"; }
-
 // "--limit-state wall_hit --limit-state wall_hit=again_2 ...": as many as are wanted, out of those there are; the last of them, the most
 // severe, is always one.
 std::string asked_for(const Model& model, std::size_t wanted) {
@@ -148,7 +146,7 @@ const Register here{
      .forms = {Form::lognormal, Form::parts, Form::discrete},
      .fixed_number = true,
      .notes_on = [](const Model& model) -> std::vector<std::string> { return {of_the_ground(model.im, "IN-CORE")}; },
-     .usual_category = usual_category,
+     .usual_category = "building",
      .refuse = refuse,
      .write = write}};
 

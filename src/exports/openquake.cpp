@@ -100,7 +100,7 @@ const Register here{
      .forms = {Form::lognormal, Form::discrete},
      .one_list_of_states = true,
      .notes_on = openquake::notes_on,
-     .usual_category = [](std::size_t) -> std::string { return "buildings"; },
+     .usual_category = "buildings",
      .refuse = [](const Model& model) { openquake::refuse(model), openquake::refuse_loss_category(model, false); },
      .write = write,
      .write_all = write_all}};

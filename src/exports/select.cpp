@@ -302,8 +302,7 @@ Model select(const Result& result, const Intensity& im, const Request& request, 
   std::vector<std::string> left_out;
   if (request.states.empty() && !format.table && !format.fixed_number)
     left_out = leave_out_what_never_happened(fresh, wanted);
-  if (fresh.asset_category.empty() && format.usual_category)
-    fresh.asset_category = format.usual_category(fresh.states.size());
+  if (fresh.asset_category.empty()) fresh.asset_category = format.usual_category;
   take_range(fresh, wanted);
   if (!format.table) refuse_what_says_nothing(fresh);
   std::string passed_over;

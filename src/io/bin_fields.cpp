@@ -82,7 +82,7 @@ constexpr FunctionField of_function[] = {
   {"misfit", false, "largest difference to the counted share of a bin", get<Fitted, &Fitted::misfit>, set<Fitted, &Fitted::misfit>},
   {"misfit_im", true, "mean IM of that bin, or of that part of one", get<Fitted, &Fitted::misfit_im>, set<Fitted, &Fitted::misfit_im>},
   {"misfit_p", false, "chance of a larger misfit if the curve were true, from resampled motions", get<Fitted, &Fitted::misfit_p>, set<Fitted, &Fitted::misfit_p>},
-  {"off_by", false, "upper bound of the difference to the true shares", get<Fitted, &Fitted::off_by>, set<Fitted, &Fitted::off_by>},
+  {"off_by", false, "upper bound of the difference to the true shares of bins of IM; within one it may be larger", get<Fitted, &Fitted::off_by>, set<Fitted, &Fitted::off_by>},
   {"rate_p", false, "chance of annual rates as far from those of the counts if the curve were true", get<Fitted, &Fitted::rate_p>, set<Fitted, &Fitted::rate_p>},
   {"adequate", false, "1: off_by is small enough, and rates agree, for the curve to stand for the counts", get<Fitted, &Fitted::adequate>, set<Fitted, &Fitted::adequate>},
 };

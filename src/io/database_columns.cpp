@@ -60,7 +60,7 @@ constexpr DatabaseColumn<Curve> curves[] = {
   {"misfit", "1", "largest difference between the lognormal and the counted shares", &Curve::misfit},
   {"misfit_im", "1", "intensity where it is", &Curve::misfit_im},
   {"misfit_p", "1", "chance of a larger one if the lognormal were true", &Curve::misfit_p},
-  {"off_by", "1", "the true shares are off the lognormal by no more", &Curve::off_by},
+  {"off_by", "1", "the true shares of bins of IM are off the lognormal by no more; within a bin it may be more", &Curve::off_by},
 };
 
 constexpr DatabaseColumn<Point> points[] = {

@@ -81,7 +81,7 @@ std::string words_json(const Database& db) {
   nlohmann::ordered_json json{{"format", words_format}, {"name", db.name}, {"revision", db.revision}};
   json["classes"] = db.classes;
   json["families"] = {
-      {database::lognormal_family, "the lognormal of median and dispersion is off by at most off_by, which is small"},
+      {database::lognormal_family, "the lognormal of median and dispersion is off the shares of bins of IM by at most off_by, which is small"},
       {database::not_refuted_family,
        "the points of the curve are to be used, as below: the lognormal is not refuted, but may be off by off_by"},
       {database::points_family,

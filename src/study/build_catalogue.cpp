@@ -121,18 +121,18 @@ Plan plan_of(const Catalogue& catalogue, const Database& before, const fs::path&
       continue;
     }
     plan.work.push_back(sweep_anew);
-    if (!row || redo) continue;
-    const std::vector<Difference> changed = differences(entry.study, parse_stored(row->study, entry.place));
-    const std::string what = row->kernel != kernel_text() ? "freestand gives other numbers now"
+    if (redo || (!row && !swept)) continue;
+    const std::vector<Difference> changed =
+        row ? differences(entry.study, parse_stored(row->study, entry.place)) : differ;
+    const std::string what = row && row->kernel != kernel_text() ? "freestand gives other numbers now"
                              : changed.empty()
                                  ? "its records were changed"
                                  : fmt::format("{} was {}, is {}", changed[0].key, changed[0].before, changed[0].now);
-    refused.push_back(
-        {entry.words.id,
-         fmt::format("entry {} is not the one of the database ({}): take it back, give it another id, or add "
-                     "--redo to compute it anew",
-                     entry.words.id, what),
-         entry.place});
+    refused.push_back({entry.words.id,
+                       fmt::format("entry {} is not the one {} ({}): take it back, give it another id, or add "
+                                   "--redo to compute it anew",
+                                   entry.words.id, row ? "of the database" : "whose samples are finished", what),
+                       entry.place});
   }
   if (!refused.empty()) throw Error(fmt::format("{}", fmt::join(told_once(refused), "\n")));
   return plan;

@@ -249,6 +249,12 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
         "does: its intervals and draws do not tell by how much its "
         "numbers "
         "are off, nor do sweeps that take them (fitted.yaml): let diagnose look for what it lacks first");
+  else if (open.tests_disagree)
+    c.findings.push_back(
+        fmt::format("the tests disagree about the numbers by {:.2g} times what noise explains: intervals and draws are "
+                    "wider by as much; see the worst "
+                    "test first",
+                    open.dispersion));
   if (const std::string unread = unread_floors(bench, c.tests); !unread.empty()) c.findings.push_back(unread);
   if (const std::string level = level_tests(*p); !level.empty()) c.findings.push_back(level);
   if (fit.evaluations == 0 && !open.better.empty()) c.findings.push_back(better_numbers(fit, open.better));

@@ -97,9 +97,13 @@ std::string usual_description(const io::Provenance& from, const fragility::Resul
 
 namespace export_parts {
 
+bool names_a_file(const fs::path& output) {
+  const std::string ending = output.extension().string();
+  return !fs::is_directory(output) && ending.find_first_not_of(".0123456789") != std::string::npos;
+}
+
 ExportPlace place(const ExportRequest& request, const exports::Format& format) {
-  const bool is_folder = fs::is_directory(request.output) || request.output.extension().empty();
-  if (is_folder) return {request.output, format.file};
+  if (!names_a_file(request.output)) return {request.output, format.file};
   if (format.folder)
     throw Error(fmt::format("{} cannot hold what {} wants (several files that belong together): name a folder, as {}",
                             request.output.string(), format.name, request.output.stem().string()));

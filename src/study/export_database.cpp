@@ -103,7 +103,7 @@ std::vector<std::string> states_of_all(const std::vector<ExportRequest>& request
 
 void export_each(const ExportRequest& request, const exports::Format& format, const Database& db,
                  DatabaseExport& done) {
-  if (request.output.has_extension())
+  if (export_parts::names_a_file(request.output))
     throw Error(
         fmt::format("{} cannot hold the entries of a database (each is a file of its own): name a folder, as {}",
                     request.output.string(), request.output.stem().string()));
@@ -201,7 +201,6 @@ std::vector<DatabaseExport> export_beside(const fs::path& database, const std::v
       request.format = format;
       if (db.intensities.size() > 1) request.output = intensity_folder(request.output, im.name);
       remove_asides(request.output);
-      make_folder(request.output);  // the dot in sa_g:0.7 is no file's ending
       request.overwrite = true;
       request.im = im.name;
       all.push_back(export_database(request));

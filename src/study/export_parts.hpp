@@ -20,6 +20,8 @@ struct ExportPlace {
   std::filesystem::path folder;
   std::string name;  // of the first file
 };
+// By its ending, and by what is there; that of sa_g_0.5 is the period of an intensity.
+bool names_a_file(const std::filesystem::path& output);
 ExportPlace place(const ExportRequest&, const exports::Format&);
 
 // Letters and digits in place of all else, so that any target takes it.

@@ -97,10 +97,11 @@ Entry load_record(const MotionSource& source, const motion::RecordRow& row, cons
   entry.weight = row.weight;
   take_peaks(entry);
   if (!(entry.peak_mps2 > 0))
-    throw Error(
-        fmt::format("{} is zero throughout (nothing would shake, whatever its scale): leave it out, or get it again",
-                    row.file.string()),
-        Exit::data);
+    throw Error(fmt::format("{}: its horizontal acceleration is zero throughout (amplitudes and intensities go by "
+                            "that): leave it out, or get it "
+                            "again; of a pair, name the component that shakes first",
+                            row.file.string()),
+                Exit::data);
   return entry;
 }
 

@@ -11,6 +11,7 @@
 #include "study/common_block.hpp"
 #include "study/paths.hpp"
 #include "study/read_parts.hpp"
+#include "study/read_reference.hpp"
 #include "study/specimen_table.hpp"
 
 namespace freestand::study {
@@ -245,7 +246,7 @@ class Reader {
     words.description = section.text("description", "");
     words.source = section.text("source", "not stated");
     if (const YAML::Node* reference = section.find("reference"))
-      read_reference(*reference, section.line("reference"), words, problems);
+      read_reference(*reference, section.line("reference"), known_, words, problems);
     const std::size_t before = problems.count();
     for (const Variant& variant : variants(section, node)) {
       if (problems.count() != before) return;
@@ -281,34 +282,6 @@ class Reader {
     std::vector<std::string> others = catalogue_.classes;
     std::erase_if(others, [&](const std::string& other) { return words(other) == words(name); });
     return others;
-  }
-
-  void read_reference(const YAML::Node& node, int line, database::Entry& words, Problems& problems) {
-    Section section(node, "reference", line, problems);
-    words.reference_source = section.text("source", "");
-    words.reference_id = section.text("id", "");
-    words.reference_im = section.text("intensity", "");
-    words.reference_demand = section.text("demand", "");
-    words.reference_capacity = section.optional_number("capacity", range::positive).value_or(database::unknown);
-    words.reference_median = section.optional_number("median", range::positive).value_or(database::unknown);
-    words.reference_dispersion = section.optional_number("dispersion", range::positive).value_or(database::unknown);
-    if (!node.IsMap()) return;
-    for (const char* key : {"source", "intensity", "demand", "median", "dispersion"})
-      if (!section.has(key))
-        section.problem(
-            key, fmt::format("reference.{} is missing (a reference is a lognormal over an intensity): add it", key));
-    check_known(section, "intensity", words.reference_im, known_.intensities);
-    check_known(section, "demand", words.reference_demand, known_.edps);
-    section.finish();
-  }
-
-  template <class Words>
-  static void check_known(Section& section, const char* key, const std::string& name, const Words& words) {
-    std::vector<std::string> names;
-    for (const auto& word : words) names.push_back(word.name);
-    if (!name.empty() && !contains(names, name))
-      section.problem(
-          key, fmt::format("reference.{} {} is not known ({}): correct it", key, shown(name), hint(name, names)));
   }
 
   // Names of `floors` or `frictions` that an entry takes; parted: they go behind its id.

@@ -47,11 +47,28 @@ BinsPart read_bins(Section& parent, const std::string& key, const BinsPart& fall
   return rules == 1 ? bins : fallback;
 }
 
+// sa_g:0.5, as the command line and databases write it, is {name: sa_g, period_s: 0.5}. Undefined: it is not of that form.
+YAML::Node with_its_number(const YAML::Node& im, const Known& known) {
+  if (!im.IsScalar()) return YAML::Node(YAML::NodeType::Undefined);
+  const std::string& text = im.Scalar();
+  const std::size_t colon = text.find(':');
+  for (const auto& measure : known.intensities)
+    if (colon != std::string::npos && measure.name == text.substr(0, colon) && !measure.parameter.empty()) {
+      YAML::Node mapping;
+      mapping["name"] = measure.name;
+      mapping[measure.parameter] = text.substr(colon + 1);
+      return mapping;
+    }
+  return YAML::Node(YAML::NodeType::Undefined);
+}
+
 IntensityPart read_intensity(Section& section, const Known& known) {
   std::vector<std::string> names;
   for (const auto& intensity : known.intensities) names.push_back(intensity.name);
   IntensityPart im;
   const YAML::Node* node = section.find("im");
+  const YAML::Node written = node ? with_its_number(*node, known) : YAML::Node(YAML::NodeType::Undefined);
+  if (written.IsDefined()) node = &written;
   std::optional<Section> mapping;
   if (node && node->IsMap()) mapping.emplace(*node, section.name("im"), section.line("im"), section.problems());
   if (mapping) {

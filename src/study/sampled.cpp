@@ -11,7 +11,7 @@ namespace {
 
 using sampling::Stream;
 
-constexpr int classes = 32;
+constexpr int classes = 64;
 
 // Class of a draw by its uniform.
 struct Classes {

@@ -184,7 +184,7 @@ class Mistakes(InFolder):
         warnings = json.loads((self.folder / "a" / "summary.json").read_text())["warnings"]
         self.assertTrue(any("a-UP.txt" in warning for warning in warnings), warnings)
         self.check(plain(with_records("a-UP.txt"), "unit: g"), "a-UP.txt", "vertical_records")
-        self.check(plain(with_records("silent.txt"), "unit: g"), "silent.txt is zero throughout", code=3)
+        self.check(plain(with_records("silent.txt"), "unit: g"), "silent.txt: its horizontal acceleration is zero throughout", code=3)
         done = self.succeed(["run", self.write("s.yaml", plain(with_records("offset.csv"), "scale: 0.1")), "-o",
                              self.folder / "b"])
         self.assertRegex(done.stderr, r"offset.csv has an offset of 3\.0\d m/s2")

@@ -28,6 +28,11 @@ TEST(Hazard, ReadsPointsInWhateverOrderOfColumns) {
   EXPECT_THAT(curve.annual_rate, testing::ElementsAre(0.1, 0.001));
   EXPECT_EQ(curve.period_s, 0);
   EXPECT_EQ(read("sa_g,annual_rate,period_s\n0.1,0.1,0.5\n1,0.01,0.5\n").period_s, 0.5);
+  const HazardCurve named = read("sa_g:0.5,annual_rate\n0.1,0.1\n1,0.01\n");
+  EXPECT_EQ(named.measure, "sa_g");
+  EXPECT_EQ(named.period_s, 0.5);
+  EXPECT_THAT(refusal("sa_g:0.5,annual_rate,period_s\n0.1,0.1,1\n1,0.01,1\n"),
+              testing::HasSubstr("hazard.csv:2: period_s changes"));
 }
 
 TEST(Hazard, IsAPowerLawBetweenItsPointsAndBeyond) {
@@ -57,7 +62,7 @@ TEST(Hazard, WhatCannotBeIsToldWithItsLine) {
               HasSubstr("hazard.csv:3: annual_rate = 0 is not positive"));
   EXPECT_THAT(refusal("pga_g,annual_rate\n0.1,0.1\n0.2,-1e-3\n"), HasSubstr("not positive"));
   EXPECT_THAT(refusal("pga_g,annual_rate\n0,0.1\n0.2,1e-3\n"), HasSubstr("hazard.csv:2: pga_g = 0 is not positive"));
-  EXPECT_THAT(refusal("pga_g,annual_rate\n0.1,0.1\n0.1,0.05\n"), HasSubstr("hazard.csv:3: pga_g falls"));
+  EXPECT_THAT(refusal("pga_g,annual_rate\n0.1,0.1\n0.1,0.05\n"), HasSubstr("hazard.csv:3: pga_g is 0.1 again"));
   EXPECT_THAT(refusal("pga_g,annual_rate\n0.1,0.1\n0.2,1x\n"), HasSubstr("hazard.csv:3: 1x is no number"));
   EXPECT_THAT(refusal("pga_g,annual_rate\n0.1,0.1\n0.2,nan\n"), HasSubstr("hazard.csv:3: nan is no number"));
   EXPECT_THAT(refusal("pga_g,annual_rate\n0,1,0.1\n"), HasSubstr("hazard.csv:2: has 3 fields"));

@@ -276,6 +276,9 @@ TEST_F(CatalogueTest, AReferenceIsWhole) {
   EXPECT_THAT(refusal(common + entry + "{source: book, intensity: pgv_mps, demand: overturned, median: 0.5}}\n"),
               HasSubstr("reference.dispersion is missing"));
   EXPECT_THAT(refusal(common + entry +
+                      "{source: book, intensity: pgv_mps, demand: peak_slip_m, median: 0.5, dispersion: 0.4}}\n"),
+              HasSubstr("reference.capacity is missing"));
+  EXPECT_THAT(refusal(common + entry +
                       "{source: book, intensity: pgw_mps, demand: overturned, median: 0.5, dispersion: 0.4}}\n"),
               AllOf(HasSubstr("some.yaml:6: reference.intensity pgw_mps"), HasSubstr("did you mean pgv_mps?")));
 }

@@ -203,7 +203,7 @@ TEST_F(Records, EveryUnusableOneIsReported) {
   } catch (const Error& error) {
     EXPECT_EQ(error.exit(), Exit::data);
     EXPECT_THAT(error.what(), testing::HasSubstr("c.csv:3"));
-    EXPECT_THAT(error.what(), testing::HasSubstr("d.csv is zero throughout"));
+    EXPECT_THAT(error.what(), testing::HasSubstr("d.csv: its horizontal acceleration is zero throughout"));
   }
 }
 

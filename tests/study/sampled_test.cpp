@@ -41,7 +41,7 @@ TEST(Sampled, IsEveryNumberThatIsNoFixedOne) {
                                                "motion.period_s", "motion"));
   EXPECT_EQ(all[0].parameter.classes, 2);
   EXPECT_FALSE(all[0].parameter.ordered);
-  EXPECT_EQ(all[2].parameter.classes, 32);
+  EXPECT_EQ(all[2].parameter.classes, 64);
   EXPECT_EQ(all[1].parameter.unit, "kg");
   EXPECT_THAT(all[3].streams, testing::ElementsAre("motion.peak_acceleration_g", "motion.peak_velocity_mps"));
   EXPECT_THAT(names(sampled(study, 1)), testing::Not(testing::Contains("motion")));
@@ -52,8 +52,8 @@ TEST(Sampled, ClassesAreThoseOfTheDraws) {
   const Study study = parse(text);
   const Realiser realise(study, load_motions(study));
   const std::vector<Sampled> all = sampled(study, 3);
-  std::vector<double> lowest(32, 1e9), highest(32, 0);
-  std::vector<int> count(32, 0);
+  std::vector<double> lowest(64, 1e9), highest(64, 0);
+  std::vector<int> count(64, 0);
   for (std::uint64_t i = 0; i < 4096; ++i) {
     const Realisation sample = realise(i);
     EXPECT_EQ(all[0].class_of(i, sample.motion), draw(realise, i, "block_width_m") == 0.9 ? 0 : 1);
@@ -62,11 +62,11 @@ TEST(Sampled, ClassesAreThoseOfTheDraws) {
     lowest[of] = std::min(lowest[of], mu);
     highest[of] = std::max(highest[of], mu);
     ++count[of];
-    EXPECT_EQ(all[4].class_of(i, sample.motion) == 32, sample.motion == 2) << "only the first entry draws a period";
+    EXPECT_EQ(all[4].class_of(i, sample.motion) == 64, sample.motion == 2) << "only the first entry draws a period";
     EXPECT_EQ(all[5].class_of(i, sample.motion), static_cast<int>(sample.motion));
   }
-  EXPECT_THAT(count, testing::Each(128));
-  for (std::size_t c = 0; c + 1 < 32; ++c) EXPECT_LT(highest[c], lowest[c + 1]);
+  EXPECT_THAT(count, testing::Each(64));
+  for (std::size_t c = 0; c + 1 < 64; ++c) EXPECT_LT(highest[c], lowest[c + 1]);
 }
 
 // Motions that are scaled to an intensity draw it as any amplitude is drawn, whatever it is called.
@@ -83,7 +83,7 @@ TEST(Sampled, ClassesOfAnIntensityThatMotionsAreScaledTo) {
     const Realiser realise(study, load_motions(study));
     changed.redrawn = all[3].streams;
     const Realiser again(changed, realise.motions());
-    std::vector<std::vector<double>> scale_of_class(32);
+    std::vector<std::vector<double>> scale_of_class(64);
     int kept = 0;
     for (std::uint64_t i = 0; i < 1024; ++i) {
       const Realisation sample = realise(i);
@@ -93,7 +93,7 @@ TEST(Sampled, ClassesOfAnIntensityThatMotionsAreScaledTo) {
       kept += again(i).pta_g == sample.pta_g;
     }
     EXPECT_LT(kept, 5) << im;
-    for (std::size_t c = 0; im != "pgv_mps" && c + 1 < 32; ++c)
+    for (std::size_t c = 0; im != "pgv_mps" && c + 1 < 64; ++c)
       EXPECT_LT(*std::max_element(scale_of_class[c].begin(), scale_of_class[c].end()),
                 *std::min_element(scale_of_class[c + 1].begin(), scale_of_class[c + 1].end()))
           << im;

@@ -21,16 +21,19 @@ HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs
   constexpr int most_looks = 4;
   constexpr double much_less = 0.8;  // s of some twelve degrees of freedom is known to 1/sqrt(2 nu), a fifth
   look_from(with_stated_numbers(bench, fit), jobs);
-  const Pull own = sum_of(of_first(pulls_, static_cast<Index>(fit.x.size())), tau2_);
+  const Pull own = sum_of(of_numbers(), tau2_);
   fall_as_stated_ = own.against.dot(own.gram.completeOrthogonalDecomposition().solve(own.against));
   for (int look = 0; look < most_looks && !place_.names.empty(); ++look) {
     const double before = dispersion_.s;
-    const Judge scattered = tau2_ > 0 ? Judge(bench, fit.model, fit.x, jobs, fanned_out, friction_scatter()) : judge_;
+    const Judge scattered = tau2_ > 0 ? Judge(bench, fit.model, fit.x, jobs, fanned_out, std::sqrt(tau2_)) : judge_;
     const AsStated place = as_stated(bench, scattered, fit, jobs, {}, weight());
     leaves_too_much_ = is_too_much(place.misfit);
     look_from(leaves_too_much_ ? AsStated{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}} : place, jobs);
     if (dispersion_.s > much_less * before) break;
   }
+  // s^2 multiplies all of C, and friction scatters no more for what tests disagree by in other numbers.
+  if (const double s = dispersion_.s; tau2_ > 0 && !leaves_too_much_ && disagree_beyond_chance(dispersion_))
+    allow(scatter_ / s, jobs);
   reduce();
   if (place_.names.empty() && !leaves_too_much_) leaves_too_much_ = is_too_much((*this)(fit.x));
 }
@@ -106,16 +109,21 @@ void HistoryMisfit::look_from(const AsStated& place, const Jobs& jobs) {
        jobs("friction of each test", tests_->count(), [&](std::size_t i) { return Values{tests_->best(i)}; }))
     shifts_.push_back(best[0]);
   pulls_ = pulls_of(*tests_, shifts_, jobs);
-  const auto own = [&] { return of_first(pulls_, static_cast<Index>(fit_.x.size())); };
-  const double tau = measurement::friction_scatter(own());
+  scatter_ = measurement::friction_scatter(of_numbers());
+  allow(scatter_, jobs);
+}
+
+std::vector<Pull> HistoryMisfit::of_numbers() const { return of_first(pulls_, static_cast<Index>(fit_.x.size())); }
+
+void HistoryMisfit::allow(double tau, const Jobs& jobs) {
   if (tau == 0) {
     shifts_.assign(tests_->count(), 0);
     pulls_ = pulls_of(*tests_, shifts_, jobs);
   }
   tau2_ = tau * tau;
   // About all numbers that were fitted: the more of them, the less tests disagree about each.
-  const Dispersion of_own = dispersion_of(own(), tau2_);
-  dispersion_ = place.is_off.empty() ? of_own : dispersion_of(pulls_, tau2_);
+  const Dispersion of_own = dispersion_of(of_numbers(), tau2_);
+  dispersion_ = place_.is_off.empty() ? of_own : dispersion_of(pulls_, tau2_);
   friction_freedom_ = std::max(1.0, of_own.freedom / std::max(1.0, static_cast<double>(fit_.x.size())));
 }
 

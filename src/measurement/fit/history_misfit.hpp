@@ -17,7 +17,7 @@ class HistoryMisfit {
   HistoryMisfit(const HistoryMisfit&) = delete;
   HistoryMisfit& operator=(const HistoryMisfit&) = delete;
 
-  double friction_scatter() const { return std::sqrt(tau2_); }
+  double friction_scatter() const { return scatter_; }
   double friction_freedom() const { return friction_freedom_; }  // n - 1 of n tests that tell of it
   const Dispersion& dispersion() const { return dispersion_; }
   // By derivatives, in the cube in which fits move: half the second derivatives of G, and the step from the fit to where it is least.
@@ -61,6 +61,8 @@ class HistoryMisfit {
   Likeliest likeliest_beside(const Values& numbers) const;
 
   void look_from(const AsStated&, const Jobs&);
+  std::vector<Pull> of_numbers() const;  // of the fit alone
+  void allow(double tau, const Jobs&);   // for friction that scatters by so much
   bool is_too_much(double misfit) const;
   double weight() const;
   void reduce();
@@ -74,7 +76,8 @@ class HistoryMisfit {
   std::optional<OwnShifts> tests_;
   std::vector<double> shifts_;  // ln of each test's friction over that of the numbers there
   std::vector<Pull> pulls_;
-  double tau2_ = 0, friction_freedom_ = 1;
+  double scatter_ = 0;                      // of friction
+  double tau2_ = 0, friction_freedom_ = 1;  // tau2_: what G allows for, and s^2 G holds s^2 of
   Dispersion dispersion_;
   bool leaves_too_much_ = false;
   double fall_as_stated_ = 0;  // of G, from the fit by its numbers alone, all being as stated

@@ -48,6 +48,7 @@ Posterior of_histories(const Bench& bench, const ModelFit& fit, const Jobs& jobs
   out.friction_freedom = misfit.friction_freedom();
   out.dispersion = found.s;
   out.freedom = found.freedom;
+  out.tests_disagree = disagree_beyond_chance(found);
   out.stated_otherwise = misfit.stated_otherwise();
   out.leaves_too_much = misfit.leaves_too_much();
   const Misfits misfits = [&](const std::vector<Values>& points) {

@@ -50,6 +50,7 @@ struct Posterior {
   ModelSpec in_laboratory = {};
   std::vector<Values> stated = {};
   double dispersion = 1;        // s
+  bool tests_disagree = false;  // histories: s is beyond chance
   double freedom = 0;           // nu; 0: one test alone, where s = 1 is taken
   double friction_scatter = 0;  // tau
   double friction_freedom = 1;  // of Student's t beside it

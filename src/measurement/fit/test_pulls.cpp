@@ -190,4 +190,8 @@ Dispersion dispersion_of(const std::vector<Pull>& pulls, double tau2) {
   return {std::sqrt(square / trace), trace * trace / trace2};
 }
 
+bool disagree_beyond_chance(const Dispersion& of) {
+  return of.freedom > 0 && gsl_cdf_chisq_Q(of.freedom * of.s * of.s, of.freedom) < chance_level;
+}
+
 }  // namespace freestand::measurement

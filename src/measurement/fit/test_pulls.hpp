@@ -56,5 +56,7 @@ struct Dispersion {
   double s = 1, freedom = 0;
 };
 Dispersion dispersion_of(const std::vector<Pull>&, double tau2);
+// nu s^2 is chi-square of nu degrees of freedom where noise is all that tests disagree by.
+bool disagree_beyond_chance(const Dispersion&);
 
 }  // namespace freestand::measurement

@@ -79,7 +79,7 @@ struct NoiseKnown {
 // it, g the share of that more: with S = R R^T it is R U (1 + g L) U^T R^T, where U L U^T = R^-1 D R^-T.
 class NoiseDraws {
  public:
-  NoiseDraws(const Summed& sum, const Bench& bench) : sum_(sum), known_(bench) {
+  NoiseDraws(const Summed& sum, const Judge& judge, const Bench& bench) : sum_(sum), judge_(judge), known_(bench) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.covariance);
     root_ = solved.eigenvectors() * solved.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
     if (known_.slow_powers.empty()) return;
@@ -99,16 +99,32 @@ class NoiseDraws {
       z.array() *= (1 + (power - 1) / (more_slow_power - 1) * growth_.array()).max(0).sqrt();
     }
     z = root_ * z;
+    for (std::size_t i = 0; i < sum_.replays.size(); ++i)
+      if (const Index count = sum_.replays[i].cols(); count > 0) z += sum_.replays[i].col(replay(s, i, count));
+    return size(s) * z;
+  }
+
+  // No model gains more on the truth than the misfit of the data themselves. A replay that went another way than all others shows a gain
+  // larger than that: it is judged by a covariance without it, and the direction in which it went by one with it.
+  double most(std::uint64_t s) const {
+    double misfit = 0;
     for (std::size_t i = 0; i < sum_.replays.size(); ++i) {
-      if (sum_.replays[i].cols() == 0) continue;
-      const auto [a, b] = random::bits(21, s, i);
-      z += sum_.replays[i].col(static_cast<Index>(a % static_cast<std::uint64_t>(sum_.replays[i].cols())));
+      const double n = judge_.samples()[i];
+      misfit += n + 3 * std::sqrt(2 * n);
+      if (const Index count = sum_.replays[i].cols(); count > 0)
+        misfit += judge_.replay_misfits()[i][static_cast<std::size_t>(replay(s, i, count))];
     }
-    return std::exp(known_.size_error * standard_normal(s, 1ULL << 40)) * z;
+    return std::pow(size(s), 2) * misfit;
   }
 
  private:
+  static Index replay(std::uint64_t s, std::size_t i, Index count) {
+    return static_cast<Index>(random::bits(21, s, i).first % static_cast<std::uint64_t>(count));
+  }
+  double size(std::uint64_t s) const { return std::exp(known_.size_error * standard_normal(s, 1ULL << 40)); }
+
   const Summed& sum_;
+  const Judge& judge_;
   NoiseKnown known_;
   MatrixXd root_;
   VectorXd growth_;
@@ -182,12 +198,12 @@ Chance chance_of_gain(const Bench& bench, const Judge& judge, const ModelFit& ba
   VectorXd measured = sum.against;
   measured.segment(p - deviate, deviate) -= deviations(known);
   Chance chance{.question = help_question, .about = {}, .observed = largest_gain(measured), .tries = tries};
-  const NoiseDraws noise(sum, bench);
+  const NoiseDraws noise(sum, judge, bench);
   weigh(chance, [&](std::uint64_t s) {
     VectorXd z = noise.draw(s);
     for (Index d = 0; d < deviate; ++d)
       z += sum.gram.col(p - deviate + d) * standard_normal(s, (1ULL << 41) + static_cast<std::uint64_t>(d));
-    return largest_gain(z);
+    return std::min(largest_gain(z), noise.most(s));
   });
   return chance;
 }
@@ -263,8 +279,8 @@ Chance chance_of_lead(const Bench& bench, const Judge& judge, const ModelFit& be
   const VectorXd measured = sum.against - sum.gram.col(q - 1);
   // Both were fitted to them already; a rival at the end of its range would gain beyond it.
   chance.observed = -2 * measured[q - 1] - difference;
-  const NoiseDraws noise(sum, bench);
-  weigh(chance, [&](std::uint64_t s) { return lead(noise.draw(s)); });
+  const NoiseDraws noise(sum, judge, bench);
+  weigh(chance, [&](std::uint64_t s) { return std::min(lead(noise.draw(s)), noise.most(s)); });
   // Data from the best lie by e from it.
   weigh_power(chance, [&](std::uint64_t s) {
     const VectorXd z = noise.draw(s);
