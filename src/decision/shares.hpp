@@ -3,7 +3,8 @@
 //   share of X in Y = Var(E[Y | X]) / Var(Y)           I. M. Sobol, Mathematical Modelling and Computational Experiments 1, 1993
 //
 // the part of the variance that would go if X were known. The samples are parted by X into K classes of equal probability (64, or so
-// few that each holds 12 samples, of an even design 32 and 25; the values of a choice, the motions and the rows of a table of joint draws are classes by themselves), and
+// few that each holds 12 samples, of an even design 32 and 25; the values of a choice, the motions and the rows of a table of joint draws
+// are classes by themselves), and
 //
 //   share = (r - q)/(1 - q),   r = 1 - sum_k SS_k / SS,   q = c (K - 1)/(N - 1)
 //
@@ -13,7 +14,8 @@
 // same design) are parted into classes too, and c is the mean of their r (N - 1)/(K - 1); how that differs among them goes into the error.
 // What is lost inside the classes is 1/K^2 of the share of a straight line over a uniform parameter, and 1/(6K) of a step's on the average
 // over where it may lie: from K/2 to K classes it falls by three times what is left, or by once that. So two thirds of that step are added,
-// no more than of what is missing to 1, and a third of it goes into the error (L. F. Richardson, 1911). Of an even design the ratio of
+// no more than of what is missing to 1, and a third of it goes into the error (L. F. Richardson, 1911), or half of what a step may lose in
+// its class, if that is more. Of an even design the ratio of
 // variances has no known distribution, and the interval is laid about the share itself. Samples that share a motion are not independent:
 // motions are left out in turn (jackknife.hpp), for the error and against the bias of few motions. Groups that are parts of one even design
 // err less than they differ: without scrambles their part of the variance is taken times c, which is still too much rather than too little,

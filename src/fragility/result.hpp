@@ -123,7 +123,8 @@ struct FragilityFunction {
   // mean IM), and the chance of a larger one if the curve were true, from resampled motions.
   double misfit = unknown, misfit_im = unknown, misfit_p = unknown;
   // The true shares of bins are off the curve by no more, with Options::confidence: the misfit, and as much as resampled misfits scatter
-  // about it. Within a bin, where samples are too few to show it, or in a step narrower than an eighth of it, it may be more. NaN where two bins or less have shares: a lognormal meets any two.
+  // about it. Within a bin, where samples are too few to show it, or in a step narrower than an eighth of it, it may be more. NaN where two
+  // bins or less have shares: a lognormal meets any two.
   double off_by = unknown;
   // The chance of annual rates as far from those of the counts if the curve were true (small_shares.hpp).
   double rate_p = unknown;

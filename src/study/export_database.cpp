@@ -201,6 +201,7 @@ std::vector<DatabaseExport> export_beside(const fs::path& database, const std::v
       request.format = format;
       if (db.intensities.size() > 1) request.output = intensity_folder(request.output, im.name);
       remove_asides(request.output);
+      make_folder(request.output);  // the dot in record.pga_g is no file's ending
       request.overwrite = true;
       request.im = im.name;
       all.push_back(export_database(request));

@@ -25,7 +25,7 @@ HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs
   fall_as_stated_ = own.against.dot(own.gram.completeOrthogonalDecomposition().solve(own.against));
   for (int look = 0; look < most_looks && !place_.names.empty(); ++look) {
     const double before = dispersion_.s;
-    const Judge scattered = tau2_ > 0 ? Judge(bench, fit.model, fit.x, jobs, fanned_out, std::sqrt(tau2_)) : judge_;
+    const Judge scattered = tau2_ > 0 ? Judge(bench, fit.model, fit.x, jobs, fanned_out, friction_scatter()) : judge_;
     const AsStated place = as_stated(bench, scattered, fit, jobs, {}, weight());
     leaves_too_much_ = is_too_much(place.misfit);
     look_from(leaves_too_much_ ? AsStated{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}} : place, jobs);
