@@ -94,6 +94,13 @@ class FoldSearch {
 
 }  // namespace
 
+void descend_left_out(const Bench& bench, std::vector<ModelFit*> fits, const Effort& effort, const Jobs& jobs) {
+  const Refit refit = [&](const ModelFit& fit, std::size_t, const Tests& seen) {
+    return FoldSearch(bench, fit.model, seen, effort).to_the_bottom(fit.x, 0.02);
+  };
+  leave_out(bench, std::move(fits), refit, jobs);
+}
+
 void search_left_out(const Bench& bench, const ModelSpec& base, std::vector<ModelFit*> fits, const Effort& effort,
                      const Jobs& jobs) {
   const auto calibration = tests_of(bench.data(), Role::calibration);

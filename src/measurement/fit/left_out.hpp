@@ -13,4 +13,7 @@ namespace freestand::measurement {
 // base: the model that the fits have grown from. Fills fold_x, left_out, intervals.
 void search_left_out(const Bench&, const ModelSpec& base, std::vector<ModelFit*>, const Effort&, const Jobs&);
 
+// The same without the search: down from the fit to all, by the tests seen alone.
+void descend_left_out(const Bench&, std::vector<ModelFit*>, const Effort&, const Jobs&);
+
 }  // namespace freestand::measurement

@@ -1,6 +1,7 @@
 #include "measurement/verdict/effect_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "measurement/fit/least_squares.hpp"
 #include "measurement/fit/left_out.hpp"
@@ -38,8 +39,8 @@ Effort EffectSearch::quick() const {
 }
 
 // A fit without a fold is no worse on the tests that it saw than the fit to all, which is the best of all together: so it is no better on
-// those left out. What leaves more of the tests that it was fitted to than another leaves of tests left out comes behind that, and is not
-// searched for anew without each fold.
+// those left out. What leaves more of the tests that it was fitted to than another leaves of tests left out comes behind that; and where it
+// leaves more by as much as a model that is near enough may (levels.hpp), it is no rival, and not searched for anew without each fold.
 void EffectSearch::leave_out(std::vector<ModelFit*> fits) {
   const auto search = [&](const std::vector<ModelFit*>& some) {
     search_left_out(bench_, base_, some, options_.effort, jobs_);
@@ -47,11 +48,11 @@ void EffectSearch::leave_out(std::vector<ModelFit*> fits) {
   if (fits.size() < 2 || kind_of_set(bench_) != Kind::history) return search(fits);
   std::stable_sort(fits.begin(), fits.end(), [](const ModelFit* a, const ModelFit* b) { return a->score < b->score; });
   search({fits.front()});
-  const double least = std::min(fits.front()->mean_left_out(), best().fit.mean_left_out());
+  const double least = std::min(fits.front()->mean_left_out(), best().fit.mean_left_out()) + 2 * std::log(adequate);
   const auto behind =
       std::partition_point(fits.begin() + 1, fits.end(), [&](const ModelFit* fit) { return fit->score <= least; });
   search({fits.begin() + 1, behind});
-  measurement::leave_out(bench_, {behind, fits.end()}, options_.effort, jobs_);
+  descend_left_out(bench_, {behind, fits.end()}, options_.effort, jobs_);
 }
 
 ModelSpec EffectSearch::narrowed(const ModelFit& fit) const {
