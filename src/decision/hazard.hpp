@@ -25,8 +25,9 @@ struct HazardCurve {
 };
 
 // From the text of a csv file: a header with the intensity's column (sa_g also as sa_g:0.5, at 0.5 s) and annual_rate [, period_s], one
-// point a line; lines that are empty or begin with # are skipped. Throws Error (Exit::data) with `file` and line: columns that are missing or unknown, what is no
-// number, an intensity that is not positive or does not grow, a rate that is not positive or rises, fewer than two points.
+// point a line; lines that are empty or begin with # are skipped. Throws Error (Exit::data) with `file` and line: columns that are missing
+// or unknown, what is no number, an intensity that is not positive or does not grow, a rate that is not positive or rises, fewer than two
+// points.
 // measures: the names that an intensity may have.
 HazardCurve parse_hazard(const std::string& text, const std::string& file, const std::vector<std::string>& measures);
 

@@ -85,14 +85,14 @@ double ShareTally::jump(const std::vector<Sums>& of_class) {
   Sums all;
   for (const Sums& one : of_class) {
     all += one;
-    if (one.n > 0) within.push_back(one.squares - one.sum * one.sum / one.n);
+    if (one.n > 0) within.push_back(one.about_mean());
   }
   double most = 0;
   for (std::size_t k = 0; k < within.size() && within.size() > 1; ++k) {
     const double before = within[k > 0 ? k - 1 : k + 1], behind = within[k + 1 < within.size() ? k + 1 : k - 1];
     most = std::max(most, within[k] - 0.5 * (before + behind));
   }
-  const double total = all.squares - all.sum * all.sum / std::max(all.n, 1.0);
+  const double total = all.about_mean();
   return total > 0 ? most / total : 0;
 }
 
@@ -103,9 +103,9 @@ double ShareTally::share(const std::vector<Sums>& of_class, double evenness) {
     if (one.n == 0) continue;
     all += one;
     classes += 1;
-    within += one.squares - one.sum * one.sum / one.n;
+    within += one.about_mean();
   }
-  const double total = all.squares - all.sum * all.sum / std::max(all.n, 1.0);
+  const double total = all.about_mean();
   // Below that the values are all the same but for the rounding of the sums.
   if (all.n <= classes + 1 || !(total > 4 * all.n / (scale * scale))) return nan;
   const double by_chance = evenness * (classes - 1) / (all.n - 1);

@@ -15,12 +15,11 @@
 // What is lost inside the classes is 1/K^2 of the share of a straight line over a uniform parameter, and 1/(6K) of a step's on the average
 // over where it may lie: from K/2 to K classes it falls by three times what is left, or by once that. So two thirds of that step are added,
 // no more than of what is missing to 1, and a third of it goes into the error (L. F. Richardson, 1911), or half of what a step may lose in
-// its class, if that is more. Of an even design the ratio of
-// variances has no known distribution, and the interval is laid about the share itself. Samples that share a motion are not independent:
-// motions are left out in turn (jackknife.hpp), for the error and against the bias of few motions. Groups that are parts of one even design
-// err less than they differ: without scrambles their part of the variance is taken times c, which is still too much rather than too little,
-// since c is of class means and the design as even throughout. A share that is zero comes out as zero on the average, so now and then below
-// it.
+// its class, if that is more. Of an even design the ratio of variances has no known distribution, and the interval is laid about the share
+// itself. Samples that share a motion are not independent: motions are left out in turn (jackknife.hpp), for the error and against the bias
+// of few motions. Groups that are parts of one even design err less than they differ: without scrambles their part of the variance is taken
+// times c, which is still too much rather than too little, since c is of class means and the design as even throughout. A share that is
+// zero comes out as zero on the average, so now and then below it.
 #pragma once
 
 #include <cstdint>
@@ -78,6 +77,7 @@ class ShareTally {
  private:
   struct Sums {
     double n = 0, sum = 0, squares = 0;
+    double about_mean() const { return squares - sum * sum / (n > 1 ? n : 1); }
     void operator+=(const Sums& other) { *this = {n + other.n, sum + other.sum, squares + other.squares}; }
     void operator-=(const Sums& other) { *this = {n - other.n, sum - other.sum, squares - other.squares}; }
   };
