@@ -6,6 +6,8 @@ option(FREESTAND_WERROR "warnings are errors" OFF)
 set(FREESTAND_FUZZ "" CACHE PATH "the build folder of a release: what a fuzzer runs is built (needs clang), and what reads no files is taken from there")
 set(FREESTAND_SANITIZE "" CACHE STRING "sanitizers, as -fsanitize= takes them")
 set(FREESTAND_ARCH "x86-64-v2" CACHE STRING "instruction set, as -march= takes it")
+set(FREESTAND_LEVELS "v2;v3;v4" CACHE STRING
+    "levels of x86-64 that a portable build has kernels for: the widest that a machine has is taken when the program runs; one has to be v2")
 set(FREESTAND_DATA_DIR "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
     "real records and measurements; the tests that need them skip when it is not there")
 

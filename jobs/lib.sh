@@ -53,14 +53,27 @@ mpi_environment() {
   export OMPI_MCA_btl_vader_single_copy_mechanism=${OMPI_MCA_btl_vader_single_copy_mechanism:-none}
 }
 
-# Configures and builds with a preset: build PRESET [TARGETS...]
+# Levels of x86-64 that this machine runs, as FREESTAND_LEVELS takes them: kernels of others only cost the compiler time here. A build for a
+# cluster of several kinds of machines keeps all: cmake --preset release.
+levels_here() {
+  local flags
+  flags=$(sed -n '/^flags/{p;q}' /proc/cpuinfo 2>/dev/null || true)
+  case " $flags " in
+    *" avx512vl "*) echo "v2;v3;v4" ;;
+    *" avx2 "*) echo "v2;v3" ;;
+    *" sse4_2 "*) echo v2 ;;
+    *) echo "v2;v3;v4" ;;
+  esac
+}
+
+# Configures and builds with a preset, for this machine: build PRESET [TARGETS...]
 build() {
   local preset=$1 log
   shift
   cd "$freestand_root" || die 1 "there is no $freestand_root"
   log=build/$preset/configure.log
   mkdir -p "build/$preset"
-  if ! cmake --preset "$preset" >"$log" 2>&1; then
+  if ! cmake --preset "$preset" -DFREESTAND_LEVELS="$(levels_here)" >"$log" 2>&1; then
     tail -n 30 "$log" >&2
     die 1 "cmake could not configure (see $freestand_root/$log)"
   fi

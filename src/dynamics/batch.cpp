@@ -18,37 +18,41 @@
 
 namespace freestand::dynamics {
 
-#ifdef FREESTAND_ISA_LEVELS
-namespace v2 {
-extern const BatchKernels kernels;
+// kernel_levels.inc is written by module.cmake: FREESTAND_KERNELS(v2) and so on, the narrowest first.
+#define FREESTAND_KERNELS(ISA)       \
+  namespace ISA {                    \
+  extern const BatchKernels kernels; \
+  }
+#include "kernel_levels.inc"
+#undef FREESTAND_KERNELS
+
+namespace {
+
+#define FREESTAND_KERNELS(ISA) &ISA::kernels,
+constexpr const BatchKernels* compiled[] = {
+#include "kernel_levels.inc"
+};
+#undef FREESTAND_KERNELS
+
+// v2 and `own` are what the whole program is compiled for.
+bool this_machine_has(const BatchKernels& kernels) {
+  const bool v4 = !std::strcmp(kernels.name, "v4"), v3 = v4 || !std::strcmp(kernels.name, "v3");
+  __builtin_cpu_init();
+  return (!v3 || (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2"))) &&
+         (!v4 || (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                  __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
+                  __builtin_cpu_supports("avx512cd")));
 }
-namespace v3 {
-extern const BatchKernels kernels;
-}
-namespace v4 {
-extern const BatchKernels kernels;
-}
-#else
-namespace own {
-extern const BatchKernels kernels;
-}
-#endif
+
+}  // namespace
 
 const BatchKernels* batch_kernels() {
   const char* wanted = std::getenv("FREESTAND_ISA");
   if (wanted && !std::strcmp(wanted, "scalar")) return nullptr;
-#ifdef FREESTAND_ISA_LEVELS
-  __builtin_cpu_init();
-  const bool has_v3 = __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") && __builtin_cpu_supports("bmi2");
-  const bool has_v4 = has_v3 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                      __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-                      __builtin_cpu_supports("avx512cd");
-  for (const auto& [kernels, has] : {std::pair{&v4::kernels, has_v4}, std::pair{&v3::kernels, has_v3}})
-    if (has && (!wanted || !std::strcmp(wanted, kernels->name))) return kernels;
-  return &v2::kernels;
-#else
-  return &own::kernels;
-#endif
+  const BatchKernels* widest = compiled[0];
+  for (const BatchKernels* kernels : compiled)
+    if (this_machine_has(*kernels) && (!wanted || !std::strcmp(wanted, kernels->name))) widest = kernels;
+  return widest;
 }
 
 namespace {

@@ -146,16 +146,16 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
   [[gnu::always_inline]] void forces(int k) {
     if constexpr (single) {
       if (k == 0 && friction_sees_force_) {
-        act(0, 0.0);
+        act_alone(0, 0.0);
         let_go_ = y_.n[0] < y_.rx[0] * y_.moment[0] / at_.body.k2;
       }
-      if (let_go_) return static_cast<void>(act(k, 0.0));
-      if (turns() && laws_see_the_normal_force()) {
-        const auto missed = [&](double normal) { return act(k, normal) - normal; };
+      if (let_go_) return static_cast<void>(act_alone(k, 0.0));
+      if (turns() && laws_.sees_normal_force(slips())) {
+        const auto missed = [&](double normal) { return act_alone(k, normal) - normal; };
         double normal = solved(k == 0, y_.n[k] / standard_gravity_mps2, missed);
         // Friction that grows as the pressure falls has a second root, at which the floor pulls.
         if (k == 0 && friction_sees_force_ && normal < 0) normal = detail::root_between(0.0, missed);
-        return static_cast<void>(act(k, normal));
+        return static_cast<void>(act_alone(k, normal));
       }
     }
     const bool seen = laws_.reads(Input::normal);
@@ -163,8 +163,6 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
     const Real normal = act(k, seen ? y_.n[k] * Real(1 / standard_gravity_mps2) : Real(0.0));
     if (seen) see_normal(k, normal);
   }
-
-  bool laws_see_the_normal_force() const { return laws_.sees_normal_force(slips()); }
 
   // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
   [[gnu::always_inline]] Real act(int k, const Real& normal) {
@@ -190,6 +188,8 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
     }
     return y_.fy[k] * Real(1 / standard_gravity_mps2);
   }
+  // The same as a function of its own, for what few samples ask: the compiler has it once for all orders.
+  [[gnu::noinline]] Real act_alone(int k, const Real& normal) { return act(k, normal); }
 
   // The slip at a speed of order k that the laws see; the speed that comes out.
   Real slip_of_foot(int k, const Real& speed) {

@@ -1,4 +1,5 @@
-# The kernels of whole blocks, once per instruction set. A portable build (x86-64-v2) holds three and picks at run time.
+# The kernels of whole blocks, once per instruction set. A portable build (x86-64-v2) holds those of
+# FREESTAND_LEVELS and picks at run time.
 function(freestand_kernels ISA)
   add_library(freestand_kernels_${ISA} OBJECT ${CMAKE_SOURCE_DIR}/src/dynamics/pack/kernels.cpp
               ${CMAKE_SOURCE_DIR}/src/dynamics/pack/pulled_kernels.cpp
@@ -16,11 +17,19 @@ endfunction()
 # are inlined (GCC bug 105593). The same text is compiled without AVX-512 with these warnings on.
 set(freestand_avx512_headers -Wno-uninitialized -Wno-maybe-uninitialized)
 
+# Those that are compiled, the widest last, for dynamics/batch.cpp.
 if(FREESTAND_ARCH STREQUAL "x86-64-v2")
-  target_compile_definitions(freestand_dynamics PRIVATE FREESTAND_ISA_LEVELS)
-  freestand_kernels(v2)
-  freestand_kernels(v3 -march=x86-64-v3)
-  freestand_kernels(v4 -march=x86-64-v4 ${freestand_avx512_headers})
+  set(freestand_flags_v3 -march=x86-64-v3)
+  set(freestand_flags_v4 -march=x86-64-v4 ${freestand_avx512_headers})
+  set(freestand_levels ${FREESTAND_LEVELS})
 else()
-  freestand_kernels(own ${freestand_avx512_headers})
+  set(freestand_flags_own ${freestand_avx512_headers})
+  set(freestand_levels own)
 endif()
+set(freestand_level_list "")
+foreach(level ${freestand_levels})
+  freestand_kernels(${level} ${freestand_flags_${level}})
+  string(APPEND freestand_level_list "FREESTAND_KERNELS(${level})\n")
+endforeach()
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/generated/kernel_levels.inc CONTENT "${freestand_level_list}")
+target_include_directories(freestand_dynamics PRIVATE ${CMAKE_BINARY_DIR}/generated)

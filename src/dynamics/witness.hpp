@@ -224,12 +224,13 @@ Arc<double, N> contact_arc(const Rig& rig, const State& state, const Floor<doubl
 }
 
 // Compiled once, in law_step.cpp.
-extern template class LawStep<1>;
-extern template class LawStep<2>;
-extern template class LawStep<3>;
-extern template class LawStep<7>;
-extern template class LawStep<8>;
-extern template class LawStep<10>;
+extern template const LawArc<1>& LawStep<1>::run();
+extern template const LawArc<1>& LawStep<1>::accelerations();
+extern template const LawArc<2>& LawStep<2>::run();
+extern template const LawArc<3>& LawStep<3>::run();
+extern template const LawArc<7>& LawStep<7>::run();
+extern template const LawArc<8>& LawStep<8>::run();
+extern template const LawArc<10>& LawStep<10>::run();
 
 // Calls use(arc) with the series of the state's mode, with laws or without.
 template <int N, class Use>

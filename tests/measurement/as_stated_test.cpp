@@ -97,7 +97,7 @@ TEST(AsStated, AWidthThatIsTwoPercentOffIsFoundFromAFitInWhichItIsFree) {
 
 // Near where they are stated dimensions refuse a right model no more often than chance does.
 TEST(AsStated, HasTheSizeOfChanceWhateverTheDimensionsAre) {
-  const int sets = test::repeats_asked(40);
+  const int sets = test::dear_repeats(40);
   int rejected = 0, plainly = 0;
   for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key) {
     const Judged found = judged(measured(rocking(0.8), key), 1 + 0.006 * random::standard_normal(77, key, 0));
@@ -110,7 +110,7 @@ TEST(AsStated, HasTheSizeOfChanceWhateverTheDimensionsAre) {
 
 // Nor do they make effects: what chance adds to them gains as rarely as it should.
 TEST(AsStated, GainsOfEffectsHaveTheSizeOfChance) {
-  const int sets = test::repeats_asked(40);
+  const int sets = test::dear_repeats(40);
   int helped = 0;
   for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key) {
     Dataset data = measured(rocking(0.8), 100 + key);

@@ -50,7 +50,7 @@ TEST(ChanceOfOutcomes, RefitsAreThoseOfTheTable) {
 // With nothing hidden an effect is said to help, and the model not to be enough, in one set of twenty. FREESTAND_REPEATS for more: of 60 sets, by
 // two effects, 5 and 2.
 TEST(ChanceOfOutcomes, HaveTheSizeOfChance) {
-  const int sets = test::repeats_asked(test::long_tests() ? 5 : 3);
+  const int sets = test::dear_repeats(5);
   int helped = 0, not_enough = 0;
   for (int key = 0; key < sets; ++key) {
     const Dataset data = made_outcomes(24, {}, 300 + static_cast<std::uint64_t>(key));

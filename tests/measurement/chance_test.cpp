@@ -37,7 +37,7 @@ bool an_effect_helps(const Bench& bench) {
 // Of true bases, one in twenty is said to lack something.
 TEST(ChanceOfGain, HasItsSize) {
   const Dataset truth = test::made_dataset(test::cabinet(), 0);
-  const int sets = test::repeats_asked(40);
+  const int sets = test::dear_repeats(40);
   int rejected = 0;
   for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key) {
     const Dataset data = test::with_noise(truth, key);
@@ -51,7 +51,7 @@ TEST(ChanceOfGain, HasItsSize) {
 // rejected (FREESTAND_REPEATS=200), not 3.
 TEST(ChanceOfGain, HasItsSizeWhereNoiseIsCorrelated) {
   const Dataset truth = test::made_dataset(test::cabinet(), 0);
-  const int sets = test::repeats_asked(20);
+  const int sets = test::dear_repeats(20);
   int rejected = 0;
   for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key) {
     const Dataset data = test::with_noise(truth, 300 + key, 0.3);

@@ -133,10 +133,10 @@ TEST(Pairs, SearchEndsWhereNoThirdEffectMakesTheBestPairBetter) {
   const Bench bench(data, 2);
   DiagnosisOptions options;
   options.effort = little;
-  const Diagnosis d = diagnose(bench, test::free_friction(),
-                               {effects::find("floor_tilt"), effects::find("viscous_drag"),
-                                effects::find("directional_friction"), effects::find("centering_spring")},
-                               options, run_here);
+  const Diagnosis d =
+      diagnose(bench, test::free_friction(),
+               {effects::find("floor_tilt"), effects::find("viscous_drag"), effects::find("centering_spring")}, options,
+               run_here);
   EXPECT_EQ(d.verdict, Verdict::unknown);
   std::set<std::vector<std::string>> combinations;
   std::size_t most = 0;

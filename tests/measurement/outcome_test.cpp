@@ -68,7 +68,7 @@ struct Held {
 // all of 60, and draws the scatter in 26 of 100 sets of five tests.)
 TEST(OutcomeFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
   Held held;
-  for (std::uint64_t seed = 500; held.sets < test::repeats_asked(100); ++seed)
+  for (std::uint64_t seed = 500; held.sets < test::dear_repeats(100); ++seed)
     held.add(fit_outcomes(Bench(made_outcomes(40, {}, seed), 0), rocking_model(true_size_m), {}, {}, run_here),
              {true_slenderness, true_scatter});
   held.expect(true);
@@ -78,7 +78,7 @@ TEST(OutcomeFit, IntervalsHoldTheTruthAsOftenAsTheySay) {
 TEST(OutcomeFit, IntervalsOfFewTestsHoldTheTruth) {
   Held held;
   const ModelSpec model = rocking_model(true_size_m);
-  for (std::uint64_t seed = 100; held.sets < test::repeats_asked(100); ++seed) {
+  for (std::uint64_t seed = 100; held.sets < test::dear_repeats(100); ++seed) {
     const Free& free = model.free[0];
     const Values truth = {free.lower * std::pow(free.upper / free.lower, random::uniform(81, seed, 0)),
                           model.free[1].upper * random::uniform(81, seed, 1)};
@@ -92,7 +92,7 @@ TEST(OutcomeFit, IntervalsOfFewTestsHoldTheTruth) {
 TEST(OutcomeFit, IntervalsOfTheNumberOfAnEffectHoldTheTruth) {
   Held held;
   const auto* offset_mass = effects::find("offset_mass");
-  for (std::uint64_t seed = 200; held.sets < test::repeats_asked(test::long_tests() ? 60 : 20); ++seed) {
+  for (std::uint64_t seed = 200; held.sets < test::dear_repeats(30); ++seed) {
     const Dataset data = made_outcomes(24, {{offset_mass, {0.25}}}, seed);
     const Bench bench(data, 0);
     const ModelSpec model = with_effect(rocking_model(true_size_m), *offset_mass, bench.reach());

@@ -21,7 +21,7 @@ ModelSpec weakening(const Bench& bench) {
 }
 
 // FREESTAND_REPEATS for more. Intervals of 90 % hold the truth as often as a chance of 0.9 comes out.
-const int noisy_sets = test::repeats_asked(12);
+const int noisy_sets = test::dear_repeats(12);
 const test::Counts held_often = test::likely_counts(noisy_sets, 0.9);
 
 TEST(Posterior, IntervalsHoldTheTruthAsOftenAsTheySay) {
@@ -247,8 +247,8 @@ TEST(Posterior, ANumberBeyondWhatIsMetInPractice) {
   ASSERT_GT(drag.parameters[0].low, 2 * rate);
   const Dataset truth = test::made_dataset(test::cabinet("viscous_drag", {rate}), 0);
   int holds = 0;
-  constexpr int sets = 8;
-  for (std::uint64_t key = 0; key < sets; ++key) {
+  const int sets = test::dear_repeats(8);
+  for (std::uint64_t key = 0; key < static_cast<std::uint64_t>(sets); ++key) {
     const Dataset data = test::with_noise(truth, 300 + key);
     const Bench bench(data, 0);
     const ModelFit fit = test::fitted(bench, with_effect(test::free_friction(), drag, bench.reach()), {0.2, rate});

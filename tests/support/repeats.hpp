@@ -15,6 +15,11 @@ inline int repeats_asked(int otherwise) {
   return asked ? std::atoi(asked) : otherwise;
 }
 
+// Of repeats that take seconds each: so many with FREESTAND_LONG_TESTS, a third of them without.
+inline int dear_repeats(int with_long_tests) {
+  return repeats_asked(long_tests() ? with_long_tests : (with_long_tests + 2) / 3);
+}
+
 // Standard deviation of a share that has this chance.
 inline double error_of_share(double chance, int repeats) { return std::sqrt(chance * (1 - chance) / repeats); }
 
