@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
 #include <exception>
 
 #include "app/command.hpp"
+#include "base/durable_file.hpp"
 #include "base/shown_text.hpp"
 #include "io/provenance.hpp"
 #include "parallel/stop.hpp"
@@ -38,6 +41,13 @@ int tell(const CLI::App& parser, const std::string& verb, const CLI::ParseError&
 
 namespace {
 
+// What was printed may not have come to a file or a pipe: who reads it has to know.
+void flush_output() {
+  errno = 0;
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  throw freestand::file_error("write", "what is printed", errno ? errno : EIO);
+}
+
 // What keeps nothing on its way ends at once when it is asked to stop; what does has a watch of its own.
 constexpr double patience_s = 0.2;
 
@@ -67,7 +77,9 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
   try {
     parser.parse(argc, argv);
     freestand::study::refuse_mixed_machines(world);
-    return static_cast<int>(work({world, freestand::io::command_line(argc, argv)}));
+    const freestand::Exit exit = work({world, freestand::io::command_line(argc, argv)});
+    if (world.is_root()) flush_output();
+    return static_cast<int>(exit);
   } catch (const CLI::ParseError& error) {
     return tell(parser, argc > 1 ? argv[1] : "", error, world);
   } catch (const freestand::Error& error) {

@@ -222,7 +222,7 @@ std::string answers_json(const Database& db, const Question& question, const std
       one["lower"].push_back(number(p.lower));
       one["upper"].push_back(number(p.upper));
     }
-    one["extrapolated"] = !answer.notes.empty();
+    one["extrapolated"] = answer.extrapolated;
     one["notes"] = answer.notes;
     one["rule"] = answer.rule;
     one["between_points"] = answer.between;

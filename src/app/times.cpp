@@ -34,7 +34,7 @@ std::string warnings_text(const study::FitSummary& fit, const std::string& folde
   const std::size_t shown = std::min(most, fit.warnings.size()), more = fit.warnings.size() - shown;
   std::string text;
   for (std::size_t i = 0; i < shown; ++i) text += "warning: " + fit.warnings[i] + "\n";
-  return text + (more ? fmt::format("({} more warnings in {})\n", more, where) : "");
+  return text + (more ? fmt::format("({} more warning{} in {})\n", more, more == 1 ? "" : "s", where) : "");
 }
 
 }  // namespace freestand::app

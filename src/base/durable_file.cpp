@@ -24,14 +24,14 @@ struct Advice {
 Advice advice(int error_number) {
   switch (error_number) {
     case ENOSPC:
-      return {"free some space and start again; what a sweep has written of its work is kept", Exit::cure};
+      return {"free some space and start again (a sweep keeps what it has finished)", Exit::cure};
     case EDQUOT:
-      return {"free some of your quota and start again; what a sweep has written of its work is kept", Exit::cure};
+      return {"free some of your quota and start again (a sweep keeps what it has finished)", Exit::cure};
     case EFBIG:
-      return {"raise the file size limit (ulimit -f) and start again; what a sweep has written of its work is kept",
+      return {"raise the file size limit (ulimit -f) and start again (a sweep keeps what it has finished)",
               Exit::cure};
     case EIO:
-      return {"check the disk or the network file system and start again; what a sweep has written of its work is kept",
+      return {"check the disk or the network file system and start again (a sweep keeps what it has finished)",
               Exit::cure};
     case EROFS:
       return {"have it mounted for writing and start again, or choose another folder", Exit::cure};
@@ -43,12 +43,12 @@ Advice advice(int error_number) {
     case ETIMEDOUT:
     case ENOTCONN:
     case ESHUTDOWN:
-      return {"start again; what a sweep has written of its work is kept", Exit::resumable};
+      return {"start again (a sweep keeps what it has finished)", Exit::resumable};
     case ENOENT:
     case ENOTDIR:
       return {"check the path", Exit::usage};
     default:
-      return {"check the path and the disk and start again; what a sweep has written of its work is kept", Exit::cure};
+      return {"check the path and the disk and start again (a sweep keeps what it has finished)", Exit::cure};
   }
 }
 

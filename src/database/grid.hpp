@@ -17,6 +17,7 @@ inline constexpr double same_number = 1e-9;
 // logarithm of each coordinate.
 struct GridPoint {
   std::vector<Part> parts;
+  bool extrapolated = false;
   std::vector<std::string> notes;
 };
 

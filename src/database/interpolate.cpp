@@ -232,15 +232,13 @@ Probability between(std::span<const Curve* const> curves, std::span<const double
   if (!value.rises()) return {at_im.value, 0, 1, at_im.resolution};
   Probability p{value(im), lower(im), upper(im), at_im.resolution};
   if (p.value == value.most()) {
-    // More than the least of them reaches: none tells at which intensity it comes.
-    const auto mean = [&](double Probability::*member) {
-      double sum = 0;
-      for (std::size_t i = 0; i < here.size(); ++i)
-        sum += weights[i] * gsl_cdf_ugaussian_Pinv(drawn_in(here[i].*member, here[i].resolution));
-      return gsl_cdf_ugaussian_P(sum);
-    };
-    p.value = outside ? p.value : std::max(p.value, mean(&Probability::value));
-    p.upper = outside ? 1 : std::max(p.upper, mean(&Probability::upper));
+    p.none_tells = std::ranges::any_of(here, [&](const Probability& one) { return one.value > value.most(); });
+    double sum = 0;
+    for (std::size_t i = 0; i < here.size(); ++i) {
+      sum += weights[i] * gsl_cdf_ugaussian_Pinv(drawn_in(here[i].value, here[i].resolution));
+      p.upper = outside ? 1 : std::max(p.upper, here[i].upper);
+    }
+    if (!outside) p.value = std::max(p.value, gsl_cdf_ugaussian_P(sum));
   }
   p.lower = std::min(p.lower, p.value);
   p.upper = std::max(p.upper, p.value);

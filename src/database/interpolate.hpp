@@ -12,13 +12,15 @@ namespace freestand::database {
 struct Probability {
   double value = unknown, lower = unknown, upper = unknown;
   double resolution = 1e-3;
+  // More than the least of the curves that it lies between ever reaches: none tells at which intensity it comes.
+  bool none_tells = false;
 };
 
 // Between curves with these weights, which sum to 1 and may be negative outside of them: at equal probability. P at im is that of
 // which the curves' intensities have im as their weighed geometric mean: of lognormals that is one, of the weighed ln medians and the
 // weighed dispersions, and where one curve has come to 1 and another is still at 0 the change lies between theirs. The ends of a band
-// alike, with a negative weight the opposite one. Above the largest P that all of them reach it is at least the mean of Phi^-1(P), or, with
-// a negative weight, level with a band up to 1. Where one of the curves falls as the intensity rises (over the report's PTA/(mu g) - 1), or
+// alike, with a negative weight the opposite one. Above the largest P that all of them reach it is at least the mean of Phi^-1(P), with a
+// band that holds those of all, or, with a negative weight, level with a band up to 1. Where one of the curves falls as the intensity rises (over the report's PTA/(mu g) - 1), or
 // a negative weight makes the answer fall, by blend(), of whose band nothing is known in the latter case.
 Probability between(std::span<const Curve* const>, std::span<const double> weights, double im);
 

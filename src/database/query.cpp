@@ -160,6 +160,23 @@ std::string between_points(const std::vector<Between>& parts, double im) {
   return text;
 }
 
+// Where none of the curves tells at which intensity such a probability comes (Probability::none_tells).
+std::string untold(const Database& db, const std::vector<Between>& parts) {
+  std::set<std::string> still;
+  for (const Between& part : parts)
+    for (const Curve* curve : part.curves)
+      if (std::ranges::all_of(curve->points, [](const Point& point) { return !(point.probability > 0); }))
+        still.insert(db.entries[curve->entry].id);
+  if (still.empty())
+    return "not every curve that this is drawn from comes to such a probability in its sweep: between them none tells "
+           "where it comes, and the band holds both";
+  return fmt::format(
+      "{} never exceeds that in its sweep: where between it and the others this begins none of them tells, and the "
+      "band "
+      "holds both; add an entry between them, and build again",
+      fmt::join(still, ", "));
+}
+
 constexpr std::int64_t few_motions = 10;  // as `run` warns
 
 std::string rule(const std::vector<Between>& parts) {
@@ -191,7 +208,9 @@ Answer answer(const Database& db, const Question& question, bool binary, GridPoi
       all.weights.push_back(part.weight * parts.back().weights[i]);
     }
   }
+  const std::size_t notes = answer.notes.size();
   check_intensity(db, question, parts, answer.notes);
+  answer.extrapolated = point.extrapolated || answer.notes.size() > notes;
   answer.im = intensities(question, parts);
   for (const double im : answer.im) {
     answer.probability.push_back(between(all.curves, all.weights, im));
@@ -199,6 +218,7 @@ Answer answer(const Database& db, const Question& question, bool binary, GridPoi
     p.lower = std::min(p.lower, p.value);
     p.upper = std::max(p.upper, p.value);
   }
+  if (std::ranges::any_of(answer.probability, &Probability::none_tells)) answer.notes.push_back(untold(db, parts));
   std::int64_t motions = std::numeric_limits<std::int64_t>::max();
   for (const Part& part : point.parts) motions = std::min(motions, db.entries[part.entry].motions);
   if (motions > 0 && motions < few_motions)

@@ -37,7 +37,8 @@ struct Answer {
   std::vector<Part> parts;  // one: that entry itself
   std::vector<double> im;   // the one asked for, or the curve's
   std::vector<Probability> probability;
-  std::vector<std::string> notes;  // plain sentences: what was extrapolated, and how far
+  bool extrapolated = false;       // outside of what was swept, or of the grid of entries
+  std::vector<std::string> notes;  // plain sentences: what was extrapolated, and how far; what the band rests on
   std::string rule;                // a plain sentence: how its curves are read between their points
   std::string between;             // and what no band holds there; empty: nothing that is more than the band
   double median = unknown, dispersion = unknown;  // of one entry whose curve is a lognormal

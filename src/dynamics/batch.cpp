@@ -14,6 +14,7 @@
 #include "dynamics/law_lanes.hpp"
 #include "dynamics/linear_pull.hpp"
 #include "dynamics/overturned.hpp"
+#include "dynamics/restraints.hpp"
 #include "dynamics/simulate.hpp"
 
 namespace freestand::dynamics {
@@ -234,15 +235,15 @@ class Queues {
     if (law) queue.cases.back().law = &queue.laws.emplace_back(*law);
   }
 
-  // Samples that a kernel declined are added to `single`. The queues are empty then.
-  void compute(std::span<Response> responses, std::vector<std::size_t>& single) {
+  // Samples that a kernel declined, or that their restraints would have held, are added to `single`. The queues are empty then.
+  void compute(std::span<const Specimen> specimens, std::span<Response> responses, std::vector<std::size_t>& single) {
     for (Queue& queue : queues_) {
       const std::size_t count = queue.at.size();
       answers_.resize(std::max(count, answers_.size()));
       declined_.assign(count, 0);
       queue.kernel(queue.cases.data(), count, answers_.data(), declined_.data());
       for (std::size_t i = 0; i < count; ++i)
-        if (declined_[i])
+        if (declined_[i] || !stays_clear(specimens[queue.at[i]], answers_[i].peak_slip_m))
           single.push_back(queue.at[i]);
         else
           responses[queue.at[i]] = without_fall(answers_[i], queue.cases[i]);
@@ -309,13 +310,15 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
         alone.push_back(i);
         continue;
       }
-      const bool packs = kernels && histories.empty() && covered(specimens[i], shakings[i], settings, c, law);
+      const std::optional<Specimen> without = unrestrained(specimens[i]);
+      const bool packs =
+          kernels && histories.empty() && covered(without ? *without : specimens[i], shakings[i], settings, c, law);
       if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c, law.has_value()) : nullptr)
         queues.add(kernel, c, law, i);
       else
         single.push_back(i);
     }
-    queues.compute(responses, single);
+    queues.compute(specimens, responses, single);
   }
   std::vector<std::size_t> under_laws;
   for (const std::size_t i : single) {

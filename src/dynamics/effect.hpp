@@ -97,6 +97,8 @@ struct Effect {
   std::function<Value(const At&, const Parameters&)> force = {};     // X [m/s2]
   std::function<Value(const At&, const Parameters&)> lift = {};      // Y, up [m/s2]
   std::function<Value(const At&, const Parameters&)> moment = {};    // T, about the centre of mass [m2/s2]
+  // It does nothing while the middle of the base is nearer than this to where it stood [m]; none: it always acts.
+  std::function<double(const Parameters&)> clear_within_m = {};
   // Told as demands [m/s2]: the pull of one chain, and the total acceleration of what moves inside.
   std::function<Value(const At&, const Parameters&)> tension = {}, contents = {};
   std::function<double(const Parameters&)> strength = {};  // of the tension at which it breaks [m/s2]

@@ -44,6 +44,7 @@ const Register slack_tether{{
           const Value pull = W * W * stretch + p[2] * side * at.v;
           return -side * where(stretch, positive(pull), 0.0 * pull);
         },
+    .clear_within_m = [](const Parameters& p) { return std::abs(p[0]); },
 }};
 
 }  // namespace freestand::effects

@@ -189,6 +189,7 @@ Outlook outlook(const Result& result, const Wanted& wanted) {
         if (std::isnan(place.half)) {
           const double more = wanted.minimum_samples / static_cast<double>(place.n);
           found.samples = std::max(found.samples, all * std::max(1.0, more));
+          found.at_least = true;
           return;
         }
         const double falls = falling(result, place), stays = place.half * place.half - falls,

@@ -67,8 +67,9 @@ double least_wanted(const Wanted& wanted, double confidence);
 //       + ((1 - over)(1 - never) phi(y))^2 (1 + y^2/2)/share that moved,   y = (ln C - lambda)/omega, Q = 1 - Phi(y).
 // A point without a band needs minimum_samples at least.
 struct Outlook {
-  double stays = 0;    // k s, of the wanted point for which that is most times what is wanted
-  double samples = 0;  // to be drawn in all
+  double stays = 0;       // k s, of the wanted point for which that is most times what is wanted
+  double samples = 0;     // to be drawn in all
+  bool at_least = false;  // points without a band want so many, and what they want then is not known
 };
 Outlook outlook(const Result& result, const Wanted& wanted);
 

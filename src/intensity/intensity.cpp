@@ -94,7 +94,8 @@ const Measure& find(const std::string& name) {
   }
   if (name.starts_with(of_records))
     throw Error("no intensity measure \"" + name + "\" (" + name.substr(of_records.size()) +
-                " is no column of a table of records with a unit that freestand knows): name it as record.pga_g");
+                " is no column of a table of records of which freestand knows how it changes with their scale): name "
+                "it as record.pga_g");
   throw Error("no intensity measure \"" + name + "\" (the measures are " + known + "): name one of these");
 }
 

@@ -71,7 +71,7 @@ Error failure(const std::string& file, const std::string& what, Doing doing) {
                              std::generic_category().message(reasons.error_number)),
                  Exit::data);
   const char* advice = doing == Doing::writing
-                           ? "check the disk and start again; what a sweep has written of its work is kept"
+                           ? "check the disk and start again (a sweep keeps what it has finished)"
                            : "make the file again, or name one that freestand has written";
   return Error(fmt::format("cannot {} {} ({}{}{}): {}", verb, file, what, reasons.innermost.empty() ? "" : ": ",
                            reasons.innermost, advice),

@@ -35,6 +35,10 @@ EarlierSamples::EarlierSamples(const Study& study, const std::filesystem::path& 
     : folder_(folder) {
   if (!std::filesystem::exists(samples_path(folder))) return;
   reader_ = std::make_shared<const io::SampleReader>(samples_path(folder), closing);
+  if (reader_->rows() < swept_samples(*reader_) && !std::filesystem::exists(tally_path(folder))) {
+    reader_.reset();
+    return;
+  }
   const Study swept = parse_stored(reader_->provenance().study, folder);
   const auto wanted = static_cast<std::int64_t>(study.samples);
   if (draws_fingerprint(swept) != draws_fingerprint(study))
@@ -45,10 +49,10 @@ EarlierSamples::EarlierSamples(const Study& study, const std::filesystem::path& 
   complete_ = study.until || swept.until ? expanded(swept) == expanded(study) : there == wanted;
   if (complete_) return;
   if (reader_->rows() < there)
-    throw Error(
-        fmt::format("{} holds the counts of {} samples of this study, of which {} are kept, and none can be added "
-                    "(keep: all would have let it): {}",
-                    folder.string(), there, reader_->rows(), other_folder));
+    throw Error(fmt::format(
+        "{} holds the counts of {} samples of this study, of which {} are kept, and none can be added{}: {}",
+        folder.string(), there, reader_->rows(),
+        study.design == sampling::Design::latin_hypercube ? "" : " (keep: all would have let it)", other_folder));
   if (rows() > wanted)
     throw Error(
         fmt::format("{} holds {} samples of this study, and {} are asked for (none is taken away): `freestand "
@@ -69,7 +73,11 @@ void EarlierSamples::check(const std::vector<Column>& columns, const std::string
         "{} holds samples of another version of freestand or kind of machine, which gives other numbers: add to them "
         "with the program that made them, there; or {}",
         folder_.string(), other_folder));
-  if (reader_->motions().fingerprint != motions_fingerprint)
+  check_records(motions_fingerprint);
+}
+
+void EarlierSamples::check_records(const std::string& motions_fingerprint) const {
+  if (reader_ && reader_->motions().fingerprint != motions_fingerprint)
     throw Error(
         fmt::format("{} holds samples of other records (one has other contents now, or another name): take it "
                     "back; or {}",

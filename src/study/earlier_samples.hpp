@@ -15,7 +15,7 @@ namespace freestand::study {
 
 class EarlierSamples {
  public:
-  // Those of the folder; none where it holds no samples.h5. Throws Error (Exit::usage): they are of another study, are more
+  // Those of the folder; none where it holds no samples.h5, or has lost the counts of those that samples.h5 does not keep. Throws Error (Exit::usage): they are of another study, are more
   // than the study wants, or would be others with its number of samples.
   EarlierSamples(const Study&, const std::filesystem::path& folder, io::Closing = io::Closing::check);
 
@@ -25,7 +25,8 @@ class EarlierSamples {
   // All that the study asks for: nothing is left to do. With `until` only if it is the very same study.
   bool complete() const { return complete_; }
 
-  // Throws Error (Exit::usage) if this program gives other numbers, or a record has changed since.
+  // Throws Error (Exit::usage) if a record has changed since; if this program gives other numbers.
+  void check_records(const std::string& motions_fingerprint) const;
   void check(const std::vector<Column>& columns, const std::string& motions_fingerprint) const;
 
   // Values of rows first ... first + count - 1, row by row.

@@ -58,7 +58,8 @@ std::string why_other(const Study& study, const std::filesystem::path& folder, c
     if (!told.empty()) return told;
   } catch (const Error&) {  // it is gone, or no study any more
   }
-  return same_samples ? "a record has other contents or another name now, is gone, or is new" : "their fingerprint differs";
+  return same_samples ? "a record has other contents or another name now, is gone, or is new"
+                      : "their fingerprint differs";
 }
 
 MotionSet load_together(const Communicator& world, const Study& study, const SweepOptions& options) {
@@ -264,6 +265,14 @@ class Sweep {
         jobs);
   }
 
+  // With the last sample that may be drawn; where it was not reached, the fit says so.
+  void tell_if_reached(std::int64_t samples) {
+    if (options_.quiet) return;
+    const fragility::Result result = result_so_far(samples);
+    if (world_.is_root() && not_reached(study_, result, drawn(samples)).empty())
+      parallel::tell(round_told(study_, result, drawn(samples)) + "\n");
+  }
+
   // However quiet: who asked for a half width must know that it was not reached.
   void tell_if_not_reached(const fragility::Result& result, std::int64_t samples) const {
     if (!world_.is_root()) return;
@@ -276,7 +285,10 @@ class Sweep {
   // Does any bin want more samples than all rounds so far have made? Then the next round begins.
   bool another_round() {
     const std::int64_t samples = rounds_[rounds_.count() - 1].end;
-    if (samples == total()) return false;
+    if (samples == total()) {
+      tell_if_reached(samples);
+      return false;
+    }
     const fragility::Result result = result_so_far(samples);
     parallel::Words want;
     if (world_.is_root())
@@ -366,8 +378,10 @@ SweepSummary sweep(const Communicator& world, const Study& study, const SweepOpt
     parallel::remove_finished_blocks(blocks_path(folder.path()));  // its end was interrupted
     io::write_text(study_path(folder.path()), io::signed_text(expanded(study, folder.path())));
   });
-  if (world.broadcast(complete)[0]) return {.samples = static_cast<std::int64_t>(study.samples), .computed = 0};
-  return Sweep(world, study, options, folder).run();
+  if (!world.broadcast(complete)[0]) return Sweep(world, study, options, folder).run();
+  const MotionSet motions = load_motions_together(world, study);
+  world.on_root([&] { EarlierSamples(study, folder.path()).check_records(motions.fingerprint()); });
+  return {.samples = static_cast<std::int64_t>(study.samples), .computed = 0};
 }
 
 }  // namespace freestand::study

@@ -41,11 +41,15 @@ std::string helps(const Study& study, const fragility::Outlook& outlook, const D
     return fmt::format(
         "it would stay at +-{:.2g} however many samples are made of these records: take more records, or wider bins",
         outlook.stays);
+  const auto at_most = static_cast<std::int64_t>(study.until->at_most);
+  std::string needed = fmt::format("some {:.2g} samples are needed", outlook.samples);
   // Of a bin that was passed over no more is known than that its samples are of some of those drawn.
-  const std::string needed =
-      fmt::format("{}some {:.2g} samples are needed", drawn.alike < drawn.samples ? "up to " : "", outlook.samples);
-  if (outlook.samples <= static_cast<double>(study.until->at_most)) return needed;
-  return needed + fmt::format(": raise at_most from {}, or take wider bins", study.until->at_most);
+  if (drawn.alike < drawn.samples) needed = "up to " + needed;
+  if (outlook.at_least)
+    needed = fmt::format("more than {:.2g} samples are needed, with which all points have a band", outlook.samples);
+  if (outlook.samples <= static_cast<double>(at_most) && !(outlook.at_least && drawn.samples == at_most)) return needed;
+  return needed + fmt::format(": raise at_most from {}{}, or take wider bins", at_most,
+                              study.keep.one_in == 1 ? "" : " and sweep anew (what is only counted is not added to)");
 }
 
 // Where no sample fell.
@@ -120,7 +124,8 @@ void tell_until(const Study& study, const fragility::Result& result, const Drawn
   if (!reached.axis.empty()) farthest[reached.axis] = reached.on_axis;
   farthest["half_width"] = reached.farthest;
   nlohmann::ordered_json& until = summary["until"];
-  until["half_width_wanted"] = study.until->half_width;
+  until["half_width_wanted"] = nullptr;
+  if (wanted(study, {}).at_once()) until["half_width_wanted"] = study.until->half_width;
   if (study.until->relative_error) {
     until["relative_error_wanted"] = *study.until->relative_error;
     until["down_to"] = study.until->down_to;

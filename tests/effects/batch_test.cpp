@@ -12,10 +12,10 @@ namespace freestand::test {
 namespace {
 
 // Those that change block, impact, friction or floor in ways that packs know.
-const std::set<std::string> in_packs = {"centering_spring",   "directional_friction", "floor_tilt",
-                                        "friction_wear",      "impact_loss",          "offset_mass",
-                                        "rate_strengthening", "rate_weakening",       "reduced_base",
-                                        "static_friction",    "vertical_shaking",     "viscous_drag"};
+const std::set<std::string> in_packs = {
+    "centering_spring", "directional_friction", "floor_tilt",     "friction_wear", "impact_loss",
+    "offset_mass",      "rate_strengthening",   "rate_weakening", "reduced_base",  "slack_tether",
+    "static_friction",  "vertical_shaking",     "viscous_drag"};
 
 const std::set<std::string> no_laws = {"impact_loss", "offset_mass", "reduced_base", "static_friction",
                                        "vertical_shaking"};

@@ -1,5 +1,6 @@
 // Law: beyond slack a spring m W^2 and a dashpot m c, pulling only.
 #include "effects/effect_fixture.hpp"
+#include "support/same_bits.hpp"
 
 namespace freestand::test {
 namespace {
@@ -50,6 +51,42 @@ TEST(SlackTether, DoesNothingOnTheOtherSide) {
   EXPECT_NEAR(respond(sliding(0.2, {effect("slack_tether", {0.01, 3, 1})}), {&push}).residual_slip_m,
               plain.residual_slip_m, 1e-12);
   EXPECT_LT(plain.residual_slip_m, -0.05);
+}
+
+// In blocks one that never reaches its tether is the block without it, to the bit; one that does, by however little, is answered as alone.
+TEST(SlackTether, DoesNothingToABlockThatStaysWithinItsSlack) {
+  CaseFamily family;
+  family.one_model = family.vertical = 0;
+  family.duration_low_s = 3, family.duration_high_s = 5;
+  std::vector<RandomCase> cases;  // which own the motions
+  std::vector<Specimen> plain;
+  std::vector<Shaking> shakings;
+  for (std::uint64_t i = 0; i < 40; ++i) {
+    cases.push_back(random_case(family, i));
+    plain.push_back(cases.back().specimen);
+    shakings.push_back(cases.back().shaking);
+  }
+  std::vector<Response> without(plain.size()), with(plain.size());
+  respond_batch(plain, shakings, {}, without);
+  for (const double slack : {1.5, 1 + 1e-5, 1 + 1e-9, 1 - 1e-9, 1 - 1e-5, 0.5}) {
+    std::vector<Specimen> tethered = plain;
+    for (std::size_t i = 0; i < plain.size(); ++i)
+      tethered[i].effects = {effect("slack_tether", {slack * without[i].peak_slip_m, 3, 1})};
+    respond_batch(tethered, shakings, {}, with);
+    int held = 0;
+    for (std::size_t i = 0; i < plain.size(); ++i) {
+      if (without[i].outcome == Outcome::overturned || without[i].peak_slip_m == 0) continue;
+      if (slack > 1 + 1e-6) {
+        EXPECT_TRUE(same_bits(with[i], without[i])) << slack << ' ' << cases[i].text();
+        continue;
+      }
+      const Response alone = respond(tethered[i], shakings[i]);
+      EXPECT_LE(distance(with[i], alone), 1e-7 + moved_by(1e-8, tethered[i], shakings[i], {}, alone))
+          << slack << ' ' << cases[i].text();
+      held += distance(with[i], without[i]) > 1e-4;
+    }
+    if (slack < 0.6) EXPECT_GT(held, 5);
+  }
 }
 
 }  // namespace

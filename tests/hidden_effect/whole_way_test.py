@@ -78,7 +78,7 @@ class WholeWay(unittest.TestCase):
         self.assertEqual((diagnosis["verdict"], diagnosis["effects"]), ("none", []))
 
     def test_a_law_of_no_catalogue_stays_unknown(self):
-        self.make("rough_floor", 5)
+        self.make("rough_floor", 4, duration=3)
         diagnosis = self.diagnosed()
         self.assertEqual((diagnosis["verdict"], diagnosis["effects"]), ("unknown", []))
 
