@@ -109,10 +109,24 @@ class Shares {
         for (std::size_t p = 0; p < sampled_.size(); ++p)
           found.totals[a].push_back(total.share(p, a, found.confidence));
     }
+    if (a_total_is_below_its_share(found))
+      found.note += fmt::format(
+          "{}a total share is below the one that goes alone (by more than two standard errors): of the samples that "
+          "moved, or stood, the parameters hang together, and shares no longer add up to one",
+          found.note.empty() ? "" : "\n");
     return found;
   }
 
  private:
+  // Of parameters that were drawn by themselves it never is, but by chance.
+  static bool a_total_is_below_its_share(const Sensitivity& found) {
+    for (std::size_t a = 0; a < found.totals.size(); ++a)
+      for (std::size_t p = 0; p < found.totals[a].size(); ++p) {
+        const fragility::Estimate &alone = found.rows[a].share[p], &total = found.totals[a][p].share;
+        if (alone.value - total.value > 2 * std::hypot(alone.se, total.se)) return true;
+      }
+    return false;
+  }
   int group(std::size_t motion, std::uint64_t sample) const {
     return groups_.of(motions_.group(static_cast<int>(motion), sample));
   }

@@ -42,14 +42,13 @@ std::string helps(const Study& study, const fragility::Outlook& outlook, const D
         "it would stay at +-{:.2g} however many samples are made of these records: take more records, or wider bins",
         outlook.stays);
   const auto at_most = static_cast<std::int64_t>(study.until->at_most);
-  std::string needed = fmt::format("some {:.2g} samples are needed", outlook.samples);
   // Of a bin that was passed over no more is known than that its samples are of some of those drawn.
-  if (drawn.alike < drawn.samples) needed = "up to " + needed;
-  if (outlook.at_least)
-    needed = fmt::format("more than {:.2g} samples are needed, with which all points have a band", outlook.samples);
-  if (outlook.samples <= static_cast<double>(at_most) && !(outlook.at_least && drawn.samples == at_most)) return needed;
-  return needed + fmt::format(": raise at_most from {}{}, or take wider bins", at_most,
-                              study.keep.one_in == 1 ? "" : " and sweep anew (what is only counted is not added to)");
+  const char* kind = outlook.at_least ? "more than " : drawn.alike < drawn.samples ? "up to some " : "some ";
+  std::string told = fmt::format("{}{:.2g} samples are needed", kind, outlook.samples);
+  if (outlook.samples > static_cast<double>(at_most) || (outlook.at_least && drawn.samples == at_most))
+    told += fmt::format(": raise at_most from {}{}, or take wider bins", at_most,
+                        study.keep.one_in == 1 ? "" : " and sweep anew (to what is only counted none is added)");
+  return told + (outlook.at_least ? " (some points have no band yet, and may need many more)" : "");
 }
 
 // Where no sample fell.

@@ -110,6 +110,12 @@ class Mistakes(InFolder):
         self.succeed(["run", study, "-o", out, "--overwrite", "--quiet"])
         self.assertEqual((out / "notes.txt").read_text(), "mine")
 
+    def test_what_is_printed_and_does_not_arrive_is_told(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            done = subprocess.run(command(["effects"]), stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 74, done.stderr)
+        self.assertIn("cannot write what is printed", done.stderr)
+
     def test_a_file_size_limit_has_to_be_cured(self):
         study = self.write("study.yaml", study_text(samples=4000, block_size=512))
         out = self.folder / "out"

@@ -3,7 +3,7 @@
 import json
 import unittest
 
-from support import InFolder, closing, datasets, h5py, result, study_text
+from support import InFolder, closing, datasets, h5py, result, study_text, write_records
 
 
 class MoreSamples(InFolder):
@@ -34,6 +34,20 @@ class MoreSamples(InFolder):
         timing = json.loads((out / "summary.json").read_text())["timing"]
         self.assertEqual(timing["samples_computed"], 0)
         self.assertEqual(len((out / "bins.csv").read_text().splitlines()), 1 + 2 * 3)
+
+    def test_a_finished_sweep_of_records_that_were_changed_is_refused_and_kept(self):
+        write_records(self.folder / "records")
+        text = study_text(samples=200)
+        start, end = text.index("motions:"), text.index("fragility:")
+        study = self.write("study.yaml", text[:start] + "motions: [{records: records/*.csv}]\n" + text[end:])
+        out, record = self.folder / "out", self.folder / "records" / "c.csv"
+        self.succeed(["run", study, "-o", out, "--quiet"])
+        before, rows = result(out), record.read_text()
+        self.succeed(["run", study, "-o", out, "--resume", "--quiet"], 2)
+        for change in (lambda: record.write_text(rows.replace("0.10,", "0.10,-")), record.unlink):
+            change()
+            self.fail_with(2, ["run", study, "-o", out, "--resume", "--quiet"], "samples of other records", ranks=2)
+            self.assertEqual(result(out), before)
 
     def test_samples_of_a_program_that_gives_other_numbers_are_refused(self):
         out = self.folder / "out"

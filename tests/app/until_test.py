@@ -132,6 +132,11 @@ class Until(InFolder):
         alone = self.succeed(["sweep", self.study, "-o", self.folder / "alone", "--quiet"])  # no fit will tell
         self.assertIn(f"was to be known to +-0.001 at all {until['points']} points at once, and after 1024 samples", alone.stderr)
         self.assertEqual(alone.stderr.count("\n"), 1)
+        few = TEXT.replace("half_width: 0.15, at_most: 200000", "half_width: 0.05, at_most: 20") + "keep: none\n"
+        told = self.succeed(["run", self.write("few.yaml", few), "-o", self.folder / "few"]).stderr
+        self.assertRegex(told, r"more than \S+ samples are needed: raise at_most from 20 and sweep anew .*some points have no band yet")
+        last = TEXT.replace("half_width: 0.15, at_most: 200000", "half_width: 0.49, at_most: 1024")
+        self.assertIn("1024 samples: the surface is known to", self.succeed(["run", self.write("last.yaml", last), "-o", self.folder / "last"]).stderr)
         reached = TEXT.replace("half_width: 0.15", "half_width: 0.49")
         self.succeed(["run", self.write("v.yaml", reached), "-o", self.folder / "v"])
         self.assertTrue(json.loads((self.folder / "v" / "summary.json").read_text())["until"]["reached"])

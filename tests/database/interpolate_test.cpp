@@ -118,6 +118,22 @@ TEST(Interpolate, BetweenNoneAndAllTheChangeLiesBetween) {
   }
 }
 
+// Of racks of two widths the wider one never falls in its sweep: at which intensity one between them does neither tells.
+TEST(Interpolate, BetweenOneThatNeverExceedsAndOneThatDoesTheBandHoldsBoth) {
+  Curve falls = leap(0.2), stays = leap(0.8);
+  for (Point& point : stays.points) point.probability = point.lower = 0, point.upper = 0.01;
+  for (Point& point : falls.points)
+    if (point.probability > 0) point.probability = 0.8, point.lower = 0.7, point.upper = 0.9;
+  const std::array<const Curve*, 2> both{&falls, &stays};
+  const Probability p = between(both, std::array{0.5, 0.5}, 0.4);
+  EXPECT_TRUE(p.none_tells);
+  EXPECT_EQ(p.lower, 0);
+  EXPECT_GE(p.upper, 0.9);
+  const Probability before = between(both, std::array{0.5, 0.5}, 0.15);
+  EXPECT_FALSE(before.none_tells);
+  EXPECT_LT(before.upper, 0.05);
+}
+
 // Counted curves of lognormal friction, by the formula for a rectangular pulse: between two medians of it the answer is the formula's, wherever
 // either has come to 1, and nowhere falls.
 TEST(Interpolate, BetweenFrictionsACurveIsTheFormulasAndRises) {

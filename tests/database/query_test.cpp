@@ -99,6 +99,17 @@ TEST(Query, BetweenEntriesTheLawOfTheGridComesOut) {
       }
 }
 
+TEST(Query, WhatTheBandRestsOnIsNoExtrapolation) {
+  Database db = made_database();
+  for (Entry& entry : db.entries) entry.motions = 7;
+  const Answer answer = ask(db, at(question(0.4), Coordinate::mu, 0.25))[0];
+  ASSERT_EQ(answer.notes.size(), 1U);
+  EXPECT_THAT(answer.notes[0], HasSubstr("rests on 7 motions"));
+  EXPECT_FALSE(answer.extrapolated);
+  EXPECT_TRUE(ask(db, at(question(0.4), Coordinate::mu, 0.55))[0].extrapolated);
+  EXPECT_TRUE(ask(db, at(question(2), Coordinate::mu, 0.25))[0].extrapolated);
+}
+
 TEST(Query, WhatIsNotAskedForPartsTheAnswers) {
   const auto answers = ask(made_database(), at(question(0.4), Coordinate::mu, 0.25));
   ASSERT_EQ(answers.size(), 2U);  // one a height
