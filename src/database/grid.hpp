@@ -17,8 +17,8 @@ inline constexpr double same_number = 1e-9;
 // logarithm of each coordinate.
 struct GridPoint {
   std::vector<Part> parts;
-  bool extrapolated = false;
   std::vector<std::string> notes;
+  bool extrapolated = false;
 };
 
 // Parts the entries into groups that agree in all but the wanted coordinates, and finds these in each group. A group that

@@ -85,7 +85,9 @@ TEST(SlackTether, DoesNothingToABlockThatStaysWithinItsSlack) {
           << slack << ' ' << cases[i].text();
       held += distance(with[i], without[i]) > 1e-4;
     }
-    if (slack < 0.6) EXPECT_GT(held, 5);
+    if (slack < 0.6) {
+      EXPECT_GT(held, 5);
+    }
   }
 }
 
