@@ -20,8 +20,9 @@ struct Probability {
 // which the curves' intensities have im as their weighed geometric mean: of lognormals that is one, of the weighed ln medians and the
 // weighed dispersions, and where one curve has come to 1 and another is still at 0 the change lies between theirs. The ends of a band
 // alike, with a negative weight the opposite one. Above the largest P that all of them reach it is at least the mean of Phi^-1(P), with a
-// band that holds those of all, or, with a negative weight, level with a band up to 1. Where one of the curves falls as the intensity rises (over the report's PTA/(mu g) - 1), or
-// a negative weight makes the answer fall, by blend(), of whose band nothing is known in the latter case.
+// band that holds those of all, or, with a negative weight, level with a band up to 1. Where one of the curves falls as the intensity rises
+// (over the report's PTA/(mu g) - 1), or a negative weight makes the answer fall, by blend(), of whose band nothing is known in the latter
+// case.
 Probability between(std::span<const Curve* const>, std::span<const double> weights, double im);
 
 // Between probabilities at one intensity. The mean is taken of Phi^-1(P), each P first drawn in to the resolution, so that the ends of a band

@@ -171,9 +171,8 @@ std::string untold(const Database& db, const std::vector<Between>& parts) {
     return "not every curve that this is drawn from comes to such a probability in its sweep: between them none tells "
            "where it comes, and the band holds both";
   return fmt::format(
-      "{} never exceeds that in its sweep: where between it and the others this begins none of them tells, and the "
-      "band "
-      "holds both; add an entry between them, and build again",
+      "{} never exceeds that in its sweep: where this begins between it and the others none of them tells, and the "
+      "band holds both; add an entry between them, and build again",
       fmt::join(still, ", "));
 }
 

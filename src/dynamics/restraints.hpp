@@ -2,7 +2,6 @@
 // without it, and is computed as that.
 #pragma once
 
-#include <freestand/response.hpp>
 #include <freestand/specimen.hpp>
 #include <optional>
 

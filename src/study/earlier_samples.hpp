@@ -15,8 +15,8 @@ namespace freestand::study {
 
 class EarlierSamples {
  public:
-  // Those of the folder; none where it holds no samples.h5, or has lost the counts of those that samples.h5 does not keep. Throws Error (Exit::usage): they are of another study, are more
-  // than the study wants, or would be others with its number of samples.
+  // Those of the folder; none where it holds no samples.h5, or has lost the counts of those that samples.h5 does not keep. Throws Error
+  // (Exit::usage): they are of another study, are more than the study wants, or would be others with its number of samples.
   EarlierSamples(const Study&, const std::filesystem::path& folder, io::Closing = io::Closing::check);
 
   // Of a sweep that passed samples over, those before the first of them: which ones it passed over was for its own study.

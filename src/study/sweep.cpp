@@ -267,7 +267,7 @@ class Sweep {
 
   // With the last sample that may be drawn; where it was not reached, the fit says so.
   void tell_if_reached(std::int64_t samples) {
-    if (options_.quiet) return;
+    if (options_.quiet || !study_.until) return;
     const fragility::Result result = result_so_far(samples);
     if (world_.is_root() && not_reached(study_, result, drawn(samples)).empty())
       parallel::tell(round_told(study_, result, drawn(samples)) + "\n");
@@ -372,15 +372,14 @@ std::filesystem::path study_path(const std::filesystem::path& folder) { return f
 
 SweepSummary sweep(const Communicator& world, const Study& study, const SweepOptions& options, RunFolder& folder) {
   parallel::Words complete{0};
+  world.on_root([&] { complete[0] = EarlierSamples(study, folder.path()).complete(); });
+  if (!world.broadcast(complete)[0]) return Sweep(world, study, options, folder).run();
+  const MotionSet motions = load_motions_together(world, study);
   world.on_root([&] {
-    complete[0] = EarlierSamples(study, folder.path()).complete();
-    if (!complete[0]) return;
+    EarlierSamples(study, folder.path()).check_records(motions.fingerprint());
     parallel::remove_finished_blocks(blocks_path(folder.path()));  // its end was interrupted
     io::write_text(study_path(folder.path()), io::signed_text(expanded(study, folder.path())));
   });
-  if (!world.broadcast(complete)[0]) return Sweep(world, study, options, folder).run();
-  const MotionSet motions = load_motions_together(world, study);
-  world.on_root([&] { EarlierSamples(study, folder.path()).check_records(motions.fingerprint()); });
   return {.samples = static_cast<std::int64_t>(study.samples), .computed = 0};
 }
 

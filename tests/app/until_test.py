@@ -137,6 +137,8 @@ class Until(InFolder):
         self.assertRegex(told, r"more than \S+ samples are needed: raise at_most from 20 and sweep anew .*some points have no band yet")
         last = TEXT.replace("half_width: 0.15, at_most: 200000", "half_width: 0.49, at_most: 1024")
         self.assertIn("1024 samples: the surface is known to", self.succeed(["run", self.write("last.yaml", last), "-o", self.folder / "last"]).stderr)
+        plain = self.succeed(["run", self.write("plain.yaml", study_text(samples=300)), "-o", self.folder / "plain"])
+        self.assertNotIn("the surface is known to", plain.stderr)
         reached = TEXT.replace("half_width: 0.15", "half_width: 0.49")
         self.succeed(["run", self.write("v.yaml", reached), "-o", self.folder / "v"])
         self.assertTrue(json.loads((self.folder / "v" / "summary.json").read_text())["until"]["reached"])
