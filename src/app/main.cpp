@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <set>
 
 #include "app/command.hpp"
 #include "base/durable_file.hpp"
@@ -41,10 +42,17 @@ int tell(const CLI::App& parser, const std::string& verb, const CLI::ParseError&
 
 namespace {
 
-// What was printed may not have come to a file or a pipe: who reads it has to know.
-void flush_output() {
+// Of these what they print is all that they make; of the others it is a log, and one that cannot be written ends no run.
+bool prints_its_answer(const CLI::App& verb) {
+  static const std::set<std::string> names = {"effects", "im", "edp", "query", "motion"};
+  const CLI::Option* check = verb.get_option_no_throw("--check");
+  return names.contains(verb.get_name()) || (check && check->count() > 0);
+}
+
+// Its answer may not have come to the file. A reader that has left wants no more.
+void flush_answer() {
   errno = 0;
-  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+  if ((std::fflush(stdout) == 0 && !std::ferror(stdout)) || errno == EPIPE) return;
   throw freestand::file_error("write", "what is printed", errno ? errno : EIO);
 }
 
@@ -78,7 +86,7 @@ int run(int argc, char** argv, const freestand::parallel::Communicator& world) {
     parser.parse(argc, argv);
     freestand::study::refuse_mixed_machines(world);
     const freestand::Exit exit = work({world, freestand::io::command_line(argc, argv)});
-    if (world.is_root()) flush_output();
+    if (world.is_root() && prints_its_answer(*parser.get_subcommands().front())) flush_answer();
     return static_cast<int>(exit);
   } catch (const CLI::ParseError& error) {
     return tell(parser, argc > 1 ? argv[1] : "", error, world);

@@ -29,18 +29,18 @@ class FewEvents(unittest.TestCase):
     def test_chance_names_a_draw_in_one_of_twenty_sweeps_at_most(self):
         """Events dealt out at random: |2 AUC - 1| of the best of four draws was above 0.1, and named, in nearly every set with few."""
         random = np.random.default_rng(3)
-        for events in (1, 2, 3, 6, 14, 60, 985):
+        for events in (1, 3, 14, 985):
             named, above = 0, 0
-            for _ in range(200):
+            for _ in range(100):
                 outcome = np.ones(1000, int)
                 outcome[random.choice(1000, events, replace=False)] = 2
                 sweep = sweep_of(outcome, **{name: random.uniform(size=1000) for name in NAMES})
                 above += separation.separation(sweep, coverage.swept(sweep)[0]).size > 0.1
                 named += "is decided" in title(sweep)
             with self.subTest(events=events):
-                self.assertLessEqual(named, stats.binom.isf(1e-3, 200, 0.05))
+                self.assertLessEqual(named, stats.binom.isf(1e-3, 100, 0.05))
                 if events < 20:
-                    self.assertGreater(above, 120)
+                    self.assertGreater(above, 60)
 
     def test_too_few_are_told(self):
         random = np.random.default_rng(1)
