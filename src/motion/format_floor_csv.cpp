@@ -33,7 +33,7 @@ RawRecord read(const RecordText& text) {
   };
   const std::size_t time = place(time_name), horizontal = place(horizontal_name), vertical = place(vertical_name);
   if (horizontal == names.size())
-    text.fail(header, fmt::format("no column {} (the columns are {}): add it", horizontal_name,
+    text.fail(header, fmt::format("no column {} (the columns are {}): add it, in m/s2", horizontal_name,
                                   shown(trim(text.line(header)), 200)));
   for (const auto& name : names) {
     const bool known = name == horizontal_name || name == vertical_name;

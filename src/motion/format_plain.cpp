@@ -24,6 +24,14 @@ bool recognises(const RecordText& text) {
          line.find_first_of("0123456789") < line.size();
 }
 
+// A comma between two digits, in a line that is parted by something else.
+bool has_decimal_commas(std::string_view line) {
+  const auto digit = [&](std::size_t i) { return i < line.size() && line[i] >= '0' && line[i] <= '9'; };
+  std::size_t commas = 0;
+  for (std::size_t i = 1; i < line.size(); ++i) commas += line[i] == ',' && digit(i - 1) && digit(i + 1);
+  return commas > 0 && trim(line).find_first_of("; \t") != std::string_view::npos;
+}
+
 RawRecord read(const RecordText& text) {
   RawRecord record{{}, "", {RawChannel{}}};
   std::vector<double> row, times;
@@ -34,6 +42,10 @@ RawRecord read(const RecordText& text) {
     row.clear();
     text.numbers(line, row);
     if (columns == 0) columns = row.size();
+    if (columns > 2 && has_decimal_commas(text.line(line)))
+      text.fail(line,
+                "decimal commas (records are written with points): write points, or take `freestand import` for "
+                "measurements");
     if (columns > 2)
       text.fail(line, fmt::format("{} columns without a header (plain records have one, or time and acceleration): "
                                   "name the columns as in a floor csv",

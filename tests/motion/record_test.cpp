@@ -241,6 +241,9 @@ TEST_F(Record, PlainColumnsOfOtherShapesAreRefused) {
   const ReadOptions options{.dt_s = 0.01, .unit = "g"};
   expect_data_error(write("a", "1\n2\n3 4\n"), 3, "2 columns (the first line has 1)", options);
   expect_data_error(write("b", "1 2 3\n"), 1, "3 columns without a header", options);
+  expect_data_error(write("b", "1, 2, 3\n"), 1, "3 columns without a header", options);
+  expect_data_error(write("b", "0,00;0,1234\n"), 1, "decimal commas", options);
+  expect_data_error(write("b", "0,00\t0,1234\n"), 1, "decimal commas", options);
   expect_data_error(write("c", "1\n2\nx\n"), 3, "cannot read the number \"x\"", options);
 }
 
