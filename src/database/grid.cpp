@@ -77,10 +77,11 @@ std::optional<GridPoint> point_in(const Database& db, const std::vector<std::siz
     const std::vector<double> all = levels(db, group, c);
     const auto side = side_of(all, *at);
     if (!side) return {};
-    point.extrapolated |= side->outside;
-    if (side->outside)
+    if (side->outside) {
+      point.extrapolated = true;
       point.notes.push_back(fmt::format("extrapolated: {} = {} is outside ({} from {} to {})", name(c), number(*at),
                                         db.entries[group.front()].equipment, number(all.front()), number(all.back())));
+    }
     std::vector<std::pair<Place, double>> more;
     for (const auto& [place, weight] : corners)
       for (std::size_t k = 0; k < side->level.size(); ++k) {

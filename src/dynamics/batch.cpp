@@ -310,9 +310,11 @@ std::size_t respond_and_count(std::span<const Specimen> specimens, std::span<con
         alone.push_back(i);
         continue;
       }
-      const std::optional<Specimen> without = unrestrained(specimens[i]);
-      const bool packs =
-          kernels && histories.empty() && covered(without ? *without : specimens[i], shakings[i], settings, c, law);
+      bool packs = kernels && histories.empty();
+      if (packs) {
+        const std::optional<Specimen> without = unrestrained(specimens[i]);
+        packs = covered(without ? *without : specimens[i], shakings[i], settings, c, law);
+      }
       if (const BatchKernel kernel = packs ? kernel_of(*kernels, specimens[i], c, law.has_value()) : nullptr)
         queues.add(kernel, c, law, i);
       else

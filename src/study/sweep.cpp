@@ -376,7 +376,7 @@ SweepSummary sweep(const Communicator& world, const Study& study, const SweepOpt
   if (!world.broadcast(complete)[0]) return Sweep(world, study, options, folder).run();
   const MotionSet motions = load_motions_together(world, study);
   world.on_root([&] {
-    EarlierSamples(study, folder.path()).check_records(motions.fingerprint());
+    EarlierSamples(study, folder.path(), io::Closing::checked).check_records(motions.fingerprint());
     parallel::remove_finished_blocks(blocks_path(folder.path()));  // its end was interrupted
     io::write_text(study_path(folder.path()), io::signed_text(expanded(study, folder.path())));
   });
