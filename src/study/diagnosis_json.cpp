@@ -151,7 +151,9 @@ Values state_intervals(const Bench& bench, Diagnosis& d, const Jobs& jobs) {
   if (d.proposal) named.push_back(&d.proposal->fit);
   Values better;
   for (ModelFit* fit : named) {
-    const Posterior open = posterior(bench, *fit, jobs);
+    ModelFit of_all = *fit;  // draws find the friction of each test themselves
+    of_all.model.friction_of_test.clear();
+    const Posterior open = posterior(bench, of_all, jobs);
     if (!take_intervals(open, *fit)) others.push_back(fit);
     if (fit == &d.base.fit) better = open.better;
   }

@@ -8,6 +8,7 @@
 #include "base/jobs.hpp"
 #include "effects/effects.hpp"
 #include "hidden_effect/make_set.hpp"
+#include "measurement/fit/own_numbers.hpp"
 #include "measurement/verdict/candidates.hpp"
 #include "measurement/verdict/chance.hpp"
 #include "measurement/verdict/diagnose.hpp"
@@ -57,14 +58,38 @@ INSTANTIATE_TEST_SUITE_P(Faults, LaboratoryVerdict,
                          testing::Values("drift", "gain", "friction_scatter", "understated_noise", "coloured_noise"),
                          [](const auto& info) { return std::string(info.param); });
 
-// Under friction that differs from test to test an effect is found where the scatter is of first order: it is allowed for. (Larger
-// scatter leaves the answer `unknown`, as with seed 3, and names nothing.)
+// Under friction that differs from test to test an effect is found, though with one friction for all another one may come closer to the tests:
+// seed 12005, whose friction scatters by 7 %, was answered `unknown`, wear and weakening before static friction.
 TEST(LaboratoryVerdict, AnEffectIsFoundThoughFrictionScatters) {
-  const Diagnosis d =
-      diagnosed(request({"static_friction"}, "friction_scatter", 7, 901, 8), {"static_friction", "viscous_drag"});
-  EXPECT_EQ(d.verdict, Verdict::missing) << testing::PrintToString(d.sentences);
-  EXPECT_EQ(d.effects, std::vector<std::string>{"static_friction"});
-  EXPECT_GT(d.friction_scatter, 0.01);
+  for (const std::uint64_t seed : {901, 12005}) {
+    const Diagnosis d = diagnosed(request({"static_friction"}, "friction_scatter", seed == 901 ? 7 : 6, seed, 8),
+                                  {"static_friction", "viscous_drag", "rate_weakening"});
+    EXPECT_EQ(d.verdict, Verdict::missing) << seed << testing::PrintToString(d.sentences);
+    EXPECT_EQ(d.effects, std::vector<std::string>{"static_friction"}) << seed;
+    EXPECT_GT(d.friction_scatter, 0.01) << seed;
+  }
+}
+
+// All numbers together, from a fit of one friction to all tests, which is far from the truth: each test's friction and the law's numbers come out.
+TEST(LaboratoryVerdict, TheFrictionOfEachTestIsFittedBesideALaw) {
+  const Scratch scratch("own_friction");
+  const MadeSet set = make_set(request({"static_friction"}, "friction_scatter", 6, 12005, 8));
+  write_set(set, scratch.folder());
+  const measurement::Dataset data = study::read_measurements(scratch / "dataset.yaml");
+  const measurement::Bench bench(data, 16);
+  const auto model = measurement::with_effect(free_friction(), *effects::find("static_friction"), bench.reach());
+  const measurement::ModelFit far{.model = model, .x = {0.22, 1.5}};
+  const measurement::Judge judge(bench, model, far.x, run_here);
+  const auto held = own_friction(bench, judge, far, run_here);
+  const auto found = fitted_with_own_friction(bench, judge, far, held, run_here);
+  const double samples = measurement::total(judge.samples());
+  EXPECT_GT(held.misfit, 1.5 * samples);
+  EXPECT_NEAR(found.of_tests.misfit / samples, 1, 0.1);
+  double of_all = 0;
+  for (const double factor : found.of_tests.of_tests) of_all += std::log(factor);
+  EXPECT_NEAR(of_all, 0, 1e-9);
+  const double ratio = set.drawn.truth.effects[0].parameters.at("ratio");
+  EXPECT_NEAR(found.fit.x[1], ratio, 0.01 * ratio);
 }
 
 // One clock that is off beside a law: the law alone misses that test, and is named with the clock.

@@ -11,6 +11,29 @@
 namespace freestand::measurement {
 namespace {
 
+const Free friction_of_one_test = {
+    .name = "factor", .lower = 0.5, .upper = 2, .low = 0.8, .high = 1.25, .logarithmic = true};
+
+// From the number of each test, and the misfit that it leaves there.
+OwnNumbers summary_of(const Judge& judge, const Free& free, const std::vector<double>& of_tests,
+                      const std::vector<double>& misfits) {
+  constexpr double near = 1e-3;
+  OwnNumbers own{.of_tests = of_tests};
+  const auto size = [&](double value) { return free.logarithmic ? std::log(value) : value; };
+  const auto tests = static_cast<double>(of_tests.size());
+  double mean = 0;
+  for (std::size_t i = 0; i < of_tests.size(); ++i) {
+    own.misfit += misfits[i];
+    if (judge.samples()[i] > 0) own.worst = std::max(own.worst, misfits[i] / judge.samples()[i]);
+    own.at_end |= to_unit(free, of_tests[i]) - to_unit(free, free.lower) < near ||
+                  to_unit(free, free.upper) - to_unit(free, of_tests[i]) < near;
+    mean += size(of_tests[i]) / tests;
+  }
+  for (const double value : of_tests) own.scatter += std::pow(size(value) - mean, 2) / std::max(tests - 1, 1.0);
+  own.scatter = std::sqrt(own.scatter);
+  return own;
+}
+
 OwnNumbers fitted_to_each(const Bench& bench, const Judge& judge, const ModelFit& fit, Number ModelSpec::*number,
                           const Free& free, const std::vector<double>& starts, double step, const char* task,
                           const Jobs& jobs) {
@@ -31,31 +54,48 @@ OwnNumbers fitted_to_each(const Bench& bench, const Judge& judge, const ModelFit
     }
     return Values{best.x[0], best.score};
   });
-  OwnNumbers own;
-  const auto size = [&](double value) { return free.logarithmic ? std::log(value) : value; };
-  double mean = 0;
-  constexpr double near = 1e-3;
-  for (std::size_t i = 0; i < tests; ++i) {
-    const double value = answers[i][0], left = answers[i][1];
-    own.of_tests.push_back(value);
-    own.misfit += left;
-    if (judge.samples()[i] > 0) own.worst = std::max(own.worst, left / judge.samples()[i]);
-    own.at_end |= to_unit(free, value) - to_unit(free, free.lower) < near ||
-                  to_unit(free, free.upper) - to_unit(free, value) < near;
-    mean += size(value) / static_cast<double>(tests);
-  }
-  for (const double value : own.of_tests)
-    own.scatter += std::pow(size(value) - mean, 2) / std::max(static_cast<double>(tests) - 1, 1.0);
-  own.scatter = std::sqrt(own.scatter);
-  return own;
+  std::vector<double> values, left;
+  for (const Values& answer : answers) values.push_back(answer[0]), left.push_back(answer[1]);
+  return summary_of(judge, free, values, left);
 }
 
 }  // namespace
 
 OwnNumbers own_friction(const Bench& bench, const Judge& judge, const ModelFit& fit, const Jobs& jobs) {
-  const Free factor = {.name = "factor", .lower = 0.5, .upper = 2, .low = 0.8, .high = 1.25, .logarithmic = true};
-  return fitted_to_each(bench, judge, fit, &ModelSpec::friction_factor, factor, {0.93, 1.0, 1.07}, 0.1,
+  return fitted_to_each(bench, judge, fit, &ModelSpec::friction_factor, friction_of_one_test, {0.93, 1.0, 1.07}, 0.1,
                         "friction of each test", jobs);
+}
+
+OwnFriction fitted_with_own_friction(const Bench& bench, const Judge& judge, const ModelFit& fit,
+                                     const OwnNumbers& start, const Jobs& jobs) {
+  constexpr int rounds = 3;
+  const auto tests = tests_of(bench.data(), Role::calibration);
+  const std::size_t shared = fit.x.size();
+  ModelSpec model = fit.model;
+  Values x = fit.x;
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    model.friction_of_test[bench.test(tests[k]).id] = {.free = static_cast<int>(x.size())};
+    model.free.push_back(friction_of_one_test);
+    x.push_back(start.of_tests[k]);
+  }
+  x = jobs("friction of each test", 1, [&](std::size_t) {
+        return least_squares(judge, all_of(judge), model, x, rounds).x;
+      }).front();
+  OwnFriction found{fit, summary_of(judge, friction_of_one_test, Values(x.begin() + static_cast<long>(shared), x.end()),
+                                    misfits(judge, all_of(judge), model, x))};
+  double of_all = 0;
+  if (fit.model.mu_k.free >= 0)
+    for (const double factor : found.of_tests.of_tests) of_all += std::log(factor) / static_cast<double>(tests.size());
+  x.resize(shared);
+  for (std::size_t k = 0; k < tests.size(); ++k) {
+    found.of_tests.of_tests[k] *= std::exp(-of_all);
+    found.fit.model.friction_of_test[bench.test(tests[k]).id] = {.value = found.of_tests.of_tests[k]};
+  }
+  if (const int mu = fit.model.mu_k.free; mu >= 0) x[static_cast<std::size_t>(mu)] *= std::exp(of_all);
+  if (const auto& mu_s = fit.model.mu_s; mu_s && mu_s->free >= 0)
+    x[static_cast<std::size_t>(mu_s->free)] *= std::exp(of_all);
+  found.fit.x = std::move(x);
+  return found;
 }
 
 OwnNumbers own_clocks(const Bench& bench, const Judge& judge, const ModelFit& fit, const Jobs& jobs) {

@@ -17,6 +17,15 @@ struct OwnNumbers {
 OwnNumbers own_friction(const Bench&, const Judge&, const ModelFit&, const Jobs&);
 OwnNumbers own_clocks(const Bench&, const Judge&, const ModelFit&, const Jobs&);
 
+// The model as it fits with a friction of its own in each test, which stands in ModelSpec::friction_of_test over the friction of all where
+// that is a number of the fit.
+struct OwnFriction {
+  ModelFit fit;
+  OwnNumbers of_tests;
+};
+// All numbers together, by derivatives from where own_friction() ends.
+OwnFriction fitted_with_own_friction(const Bench&, const Judge&, const ModelFit&, const OwnNumbers& start, const Jobs&);
+
 // Do they explain the tests, each of them, where the best of all other models leaves least_misfit over so many samples? By more than
 // the largest gain that so many numbers make by chance. (One test in another unit is no friction that differs.)
 bool explain_tests(const OwnNumbers&, double samples, double least_misfit);

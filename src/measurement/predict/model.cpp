@@ -30,6 +30,10 @@ bool ModelSpec::has(const std::string& name) const {
 
 Specimen specimen(const ModelSpec& model, const Test& test, std::span<const double> x) {
   Specimen s = specimen(model, test.specimen, x);
+  if (const auto own = model.friction_of_test.find(test.id); own != model.friction_of_test.end()) {
+    s.friction.mu_k *= own->second.of(x);
+    s.friction.mu_s *= own->second.of(x);
+  }
   s.start = test.start;
   return s;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <freestand/specimen.hpp>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -42,6 +43,7 @@ struct ModelSpec {
   // floor's acceleration; and by how much the responses are stamped late against the floor's [s].
   Number width_factor{.value = 1}, centre_height_factor{.value = 1}, friction_factor{.value = 1},
       floor_gain{.value = 1}, clock_behind;
+  std::map<std::string, Number> friction_of_test;  // a factor on the friction of one test, by its id; absent: 1
   Number mu_k;
   std::optional<Number> mu_s, static_ratio;  // neither: mu_s = mu_k
   Model model = Model::slide_rock;

@@ -151,8 +151,11 @@ bool CandidateComparison::as_good(const Candidate& best, const Candidate& rival)
 
 bool CandidateComparison::within_tolerances(const Candidate& c) const { return enough_within_tolerances(d_, c); }
 
+// What leaves more than chance of all tests together cannot be the truth, though it may foretell better a test of which no other one tells.
 bool CandidateComparison::refuted(const Candidate& best, const Candidate& rival) {
-  return histories_ && enough(best) && within_tolerances(best) && (!enough(rival) || !by_chance(best, rival));
+  if (!histories_ || !enough(best)) return false;
+  if (within_tolerances(best)) return !enough(rival) || !by_chance(best, rival);
+  return !enough(rival) && !by_chance(best, rival);
 }
 
 bool CandidateComparison::by_chance(const Candidate& best, const Candidate& rival) {

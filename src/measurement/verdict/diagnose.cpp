@@ -39,7 +39,18 @@ class Diagnoser : PairSearch {
  public:
   using PairSearch::PairSearch;
 
-  Diagnosis run() {
+  // With the friction of each test as an earlier search has found it, which stands in the base.
+  void know(const OwnNumbers& friction) {
+    friction_known_ = true;
+    out_.own_friction = friction;
+    out_.friction_of_base = false;
+    out_.friction_scatter = friction.scatter;
+  }
+
+  const std::optional<OwnFriction>& friction_beside_an_effect() const { return friction_beside_; }
+
+  // Empty: friction was found to differ from test to test beside an effect, and the search is to be made again with that.
+  std::optional<Diagnosis> run() {
     fit_base();
     out_.quality = examine(bench_, out_.base.fit, options_.effort, jobs_);
     if (out_.quality.spoilt()) {
@@ -52,6 +63,7 @@ class Diagnoser : PairSearch {
     fit(singles);
     judge();
     look_for_chance();
+    if (friction_beside_) return {};
     for (std::string& fault : std::vector{clocks_at_fault_.empty() ? stated_wrongly() : clocks_at_fault_,
                                           sides_turned_round(bench_, out_.base.fit, least_score(), quick(), jobs_)})
       if (!fault.empty()) {
@@ -235,20 +247,15 @@ class Diagnoser : PairSearch {
       if (!tried.empty()) keep(chance_of_gain_of_peaks(bench_, out_.base.fit, tried, jobs_));
       return;
     }
-    const auto ask = [&] {
-      const Judge judge = judge_of(out_.base.fit);
-      out_.chances.clear();
-      out_.strays = judge.strays();
-      if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
-      if (out_.friction_scatter == 0 && !chance_of_misfit_of(out_.base.fit).chance()) {
-        out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
-        look_at_clocks(judge, out_.base, std::min(least_misfit(out_), out_.own_friction->misfit));
-      }
-    };
-    ask();
-    if (!clocks_at_fault_.empty() || only_friction_scatters(out_) || !friction_scatters_beside_the_best()) return;
-    judge();
-    ask();
+    const Judge judge = judge_of(out_.base.fit);
+    out_.strays = judge.strays();
+    if (!tried.empty()) keep(chance_of_gain(bench_, judge, out_.base.fit, tried, jobs_));
+    if (friction_known_) return;
+    if (!chance_of_misfit_of(out_.base.fit).chance()) {
+      out_.own_friction = own_friction(bench_, judge, out_.base.fit, jobs_);
+      look_at_clocks(judge, out_.base, std::min(least_misfit(out_), out_.own_friction->misfit));
+    }
+    if (clocks_at_fault_.empty() && !only_friction_scatters(out_)) look_for_friction_beside_an_effect();
   }
 
   // The base where nothing helps.
@@ -296,22 +303,34 @@ class Diagnoser : PairSearch {
         error(clocks.misfit), error(least_of_all_else));
   }
 
-  // Where even the best effect leaves more than chance: does it less with a friction, or a clock, of its own in each test, and by more
-  // than one more effect would? Then misfits allow for such a scatter, or the clocks are at fault.
-  bool friction_scatters_beside_the_best() {
+  // Where even the best effect leaves more than chance: does it, or another, less with a friction, or a clock, of its own in each test, and by
+  // more than one more effect would? Then each test has that friction, or the clocks are at fault.
+  void look_for_friction_beside_an_effect() {
     const Candidate& known = best();
-    if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return false;
-    const Judge judge = judge_of(known.fit);
-    OwnNumbers own = own_friction(bench_, judge, known.fit, jobs_);
+    if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return;
+    const OwnFriction own = closest_with_own_friction();
     const double least = what_suits(known.fit).misfit - chance_of_another(known).observed;
-    look_at_clocks(judge, known, std::min(least, own.misfit));
-    if (!clocks_at_fault_.empty() || !explain_tests(own, total(judge.samples()), least)) return false;
-    out_.friction_scatter = own.scatter;
-    out_.own_friction = std::move(own);
-    out_.friction_of_base = false;
-    return true;
+    look_at_clocks(judge_of(known.fit), known, std::min(least, own.of_tests.misfit));
+    if (clocks_at_fault_.empty() && explain_tests(own.of_tests, total(out_.samples), least)) friction_beside_ = own;
   }
 
+  // Of the effects alone. All their numbers are fitted together with the tests' frictions for the few that come closest with their own held.
+  OwnFriction closest_with_own_friction() const {
+    constexpr std::size_t fitted_together = 4;
+    std::vector<std::pair<OwnNumbers, const ModelFit*>> held;
+    for (const ModelFit* fit : tried_alone()) held.emplace_back(own_friction(bench_, judge_of(*fit), *fit, jobs_), fit);
+    std::ranges::stable_sort(held, {}, [](const auto& one) { return one.first.misfit; });
+    held.resize(std::min(held.size(), fitted_together));
+    std::optional<OwnFriction> closest;
+    for (const auto& [own, fit] : held) {
+      OwnFriction found = fitted_with_own_friction(bench_, judge_of(*fit), *fit, own, jobs_);
+      if (!closest || found.of_tests.misfit < closest->of_tests.misfit) closest = std::move(found);
+    }
+    return *closest;
+  }
+
+  bool friction_known_ = false;
+  std::optional<OwnFriction> friction_beside_;
   std::string clocks_at_fault_;  // a sentence; empty: none is
 };
 
@@ -343,7 +362,14 @@ Diagnosis diagnose(const Bench& bench, const ModelSpec& base, const Catalogue& c
     if (d.quality.spoilt()) withdraw(d);
     return d;
   }
-  return Diagnoser(bench, base, catalogue, options, jobs).run();
+  Diagnoser diagnoser(bench, base, catalogue, options, jobs);
+  if (auto diagnosis = diagnoser.run()) return std::move(*diagnosis);
+  const OwnFriction& own = *diagnoser.friction_beside_an_effect();
+  ModelSpec with_own = base;
+  with_own.friction_of_test = own.fit.model.friction_of_test;
+  Diagnoser again(bench, with_own, catalogue, options, jobs);
+  again.know(own.of_tests);
+  return *again.run();
 }
 
 }  // namespace freestand::measurement

@@ -34,7 +34,10 @@ class LawSearch : PairSearch {
       : PairSearch(bench, base, forms, options, jobs), diagnosis_(diagnosis) {
     out_.base = diagnosis.base;
     // An effect that is enough only if friction scatters beside it is held against laws that need no scatter.
-    out_.friction_scatter = beside_scatter() ? 0 : diagnosis.friction_scatter;
+    if (beside_scatter())
+      out_.base.fit.model.friction_of_test.clear();
+    else
+      out_.friction_scatter = diagnosis.friction_scatter;
   }
 
   void run() {
@@ -159,7 +162,9 @@ void propose_law(const Bench& bench, const ModelSpec& base, const std::vector<co
   if (kind_of_set(bench) != Kind::history || diagnosis.reason == Reason::data) return;
   if (diagnosis.verdict == Verdict::none) return;
   if (diagnosis.verdict != Verdict::unknown && is_enough_by_chance(diagnosis) && !several_are_enough(diagnosis)) return;
-  LawSearch(bench, base, forms, options, jobs, diagnosis).run();
+  ModelSpec from = base;
+  if (diagnosis.verdict == Verdict::unknown) from.friction_of_test = diagnosis.base.fit.model.friction_of_test;
+  LawSearch(bench, from, forms, options, jobs, diagnosis).run();
 }
 
 LawBand law_band(const ModelFit& fit, const LawAt& law) {
