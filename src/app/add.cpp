@@ -23,6 +23,13 @@ void tell_added(const std::string& file, const std::string& content) {
   for (const auto& step : v.ladder)
     fmt::print("{:<28} {:>12} {:>12} {:>12}\n", (step.step == "base" ? "" : "+ ") + step.step,
                text(step.error_calibration), text(step.error_holdout), text(step.noise_floor));
+  if (const auto& last = v.ladder.back(); last.explained_holdout < 0.8 * last.error_holdout) {
+    std::vector<std::string> steps;
+    for (const auto& step : v.ladder)
+      steps.push_back(fmt::format("{}{} {}", step.step == "base" ? "" : "+ ", step.step, text(step.explained_holdout)));
+    fmt::print("held out, with the floor's noise and what friction differs by from test to test allowed for: {}\n",
+               fmt::join(steps, ", "));
+  }
   for (const auto& c : v.calibrated)
     if (c.value) fmt::print("{} = {:.5g}\n", c.name, *c.value);
   fmt::print("study in {}\n", file);

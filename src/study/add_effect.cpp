@@ -83,8 +83,8 @@ ModelSpec starting(const Prepared& before, const ModelFit& fit, const Prepared& 
   return model;
 }
 
-LadderStep step_of(const std::string& step, const Prepared& p, const ModelFit& fit, const Jobs& jobs) {
-  const Posterior open = outcomes_only(p.data) ? posterior(*p.bench, fit, jobs) : Posterior{};
+LadderStep step_of(const std::string& step, const Prepared& p, const ModelFit& fit, const Posterior& open,
+                   const Jobs& jobs) {
   const auto tests = compare_tests(*p.bench, fit, open, jobs);
   const RoleError in = role_error(*p.bench, tests, Role::calibration), out = role_error(*p.bench, tests, Role::holdout);
   const double none = std::nan("");
@@ -137,16 +137,16 @@ std::string add(const parallel::Communicator& world, const ValidationRun& run, c
 
   const ModelFit base = fitted(*before, false, jobs);
   ModelFit fit = fit_with_effect(*after->bench, base, starting(*before, base, *after), jobs);
-  open_numbers(*after->bench, fit, jobs);
+  const Posterior open = open_numbers(*after->bench, fit, jobs);
 
   std::vector<LadderStep> ladder = before->validation.ladder;
   if (before->measurements != before->validation.measurements) ladder.clear();  // it is of other tests
   if (ladder.empty()) {
     ModelFit told = base;  // as `compare` tells it
-    open_numbers(*before->bench, told, jobs);
-    ladder.push_back(step_of("base", *before, told, jobs));
+    const Posterior of_base = open_numbers(*before->bench, told, jobs);
+    ladder.push_back(step_of("base", *before, told, of_base, jobs));
   }
-  ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fit, jobs));
+  ladder.push_back(step_of(entry["name"].as<std::string>(), *after, fit, open, jobs));
   write_numbers(root, fit);
   model.remove("discrepancy");  // of the model without the effect
   root["ladder"] = ladder_node(ladder);

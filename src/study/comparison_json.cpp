@@ -80,6 +80,7 @@ Json test_json(const Bench& bench, const TestComparison& t) {
                {"error_noise_units", number_or_null(t.error.noise_units)},
                {"error_relative", number_or_null(t.error.relative)},
                {"error_floor_noise_allowed", number_or_null(t.explained)},
+               {"own_friction", t.own_friction ? Json(*t.own_friction) : Json(nullptr)},
                {"error_expected", number_or_null(t.expected)},
                {"score", number_or_null(t.error.score)},
                {"ln_ratio", ln_ratio(bench, t)},

@@ -273,6 +273,19 @@ void average_over_draws(const Bench& bench, const ModelSpec& model, const Poster
   }
 }
 
+// The predictions stay those of one friction for all tests.
+void allow_own_friction(const Bench& bench, const ModelFit& fit, double scatter, std::vector<TestComparison>& tests,
+                        const Jobs& jobs) {
+  const auto answers = jobs("friction of each test", tests.size(), [&](std::size_t i) {
+    if (!bench.test(tests[i].test).has_history()) return Values{};
+    TestComparison own{.test = tests[i].test, .spread = tests[i].spread};
+    give_own_friction(bench, fit.model, fit.x, scatter, own);
+    return Values{own.explained, *own.own_friction};
+  });
+  for (std::size_t i = 0; i < tests.size(); ++i)
+    if (!answers[i].empty()) tests[i].explained = answers[i][0], tests[i].own_friction = answers[i][1];
+}
+
 std::vector<TestComparison> compare_tests(const Bench& bench, const ModelFit& fit, const Posterior& open,
                                           const Jobs& jobs) {
   // The replays are the work; each test's variances travel, the prediction is made again.
@@ -301,6 +314,7 @@ std::vector<TestComparison> compare_tests(const Bench& bench, const ModelFit& fi
     tests.push_back(compare_test(bench, i, fit.model, fit.x, std::move(of_noise), next()));
   }
   average_over_draws(bench, fit.model, open, tests, jobs);
+  if (open.friction_scatter > 0) allow_own_friction(bench, fit, open.friction_scatter, tests, jobs);
   return tests;
 }
 

@@ -4,7 +4,8 @@
 //   format "freestand-comparison/2", study, measurements, specimen_model (effects of the model), error_unit ("noise units",
 //   "ln ratio", "Brier"), method (of the calibration, a sentence)
 //   tests: [{id, role, kind (history|peaks|outcome), floor_peak_g, error_noise_units, error_relative,
-//     error_floor_noise_allowed (error_noise_units with the floor's noise allowed for, sample by sample), error_expected
+//     error_floor_noise_allowed (error_noise_units with the floor's noise allowed for, sample by sample, and where friction scatters
+//     with own_friction, a factor on that of this test, else null), error_expected
 //     (what noise alone would make), channels: [{name, error_noise_units, error_relative, bias, autocorrelation}],
 //     ln_ratio (of peaks: root of the score, with the sign of what is missed), peaks: [{name, measured, model, compared}],
 //     overturned_measured, overturned_probability, outcome, error_of_mean
@@ -28,7 +29,7 @@
 //     position_m, direction (where slip was measured), normal_g, time_s, floor_g; growth: change of the residual within
 //     0.1 s, of the channel that changes more, or of one (0: not measured)
 //   ladder: [{step, error_calibration, error_holdout, noise_floor (of the calibration tests), noise_floor_holdout,
-//     explained_holdout (error_holdout with the floor's noise allowed for)}] of the study
+//     explained_holdout (error_floor_noise_allowed of the held-out tests)}] of the study
 //
 // diagnosis.json
 //   format "freestand-diagnosis/2", study, measurements, fingerprint (of all that it follows from), error_unit, verdict, effects, sentences, findings

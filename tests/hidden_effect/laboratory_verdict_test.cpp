@@ -9,6 +9,7 @@
 #include "effects/effects.hpp"
 #include "hidden_effect/make_set.hpp"
 #include "measurement/fit/own_numbers.hpp"
+#include "measurement/fit/posterior.hpp"
 #include "measurement/verdict/candidates.hpp"
 #include "measurement/verdict/chance.hpp"
 #include "measurement/verdict/diagnose.hpp"
@@ -90,6 +91,18 @@ TEST(LaboratoryVerdict, TheFrictionOfEachTestIsFittedBesideALaw) {
   EXPECT_NEAR(of_all, 0, 1e-9);
   const double ratio = set.drawn.truth.effects[0].parameters.at("ratio");
   EXPECT_NEAR(found.fit.x[1], ratio, 0.01 * ratio);
+
+  // From numbers that `add` once ended at, with 52 noise units on tests held out: what the tests leave open holds the truth.
+  measurement::ModelFit fit{.model = model, .x = {0.284, 1.607}, .evaluations = 1};
+  const measurement::Posterior open = open_numbers(bench, fit, run_here);
+  EXPECT_NEAR(fit.x[1], ratio, 0.01 * ratio);
+  EXPECT_NEAR(open.friction_scatter, 0.07, 0.03);
+  for (const auto& [number, truth] : {std::pair(std::size_t{0}, set.drawn.truth.mu_k), {std::size_t{1}, ratio}}) {
+    const auto [lower, upper] = open.interval(number, 0.95);
+    EXPECT_LT(lower, truth) << number;
+    EXPECT_GT(upper, truth) << number;
+    EXPECT_LT(upper - lower, 0.3 * truth) << number;
+  }
 }
 
 // One clock that is off beside a law: the law alone misses that test, and is named with the clock.

@@ -40,6 +40,30 @@ std::vector<std::string> said(const Dataset& data, const ModelSpec& model, const
   return compare(bench, model, {}, std::move(tests), quality).findings;
 }
 
+// Each test slides with a friction of its own: told beside what one friction leaves, and no effect is asked for.
+TEST(Findings, FrictionThatDiffersFromTestToTestIsNoEffect) {
+  Dataset data = test::made_dataset(tall(0.2));
+  const double factors[] = {1.05, 0.93, 1.1, 0.98};
+  data.tests.resize(4);
+  for (std::size_t i = 0; i < 4; ++i)
+    data.tests[i] = test::made_test(data.tests[i].id, tall(0.2 * factors[i]),
+                                    test::swings(5 + static_cast<double>(i), 0.5, 0.005), i + 1, 0.005);
+  const Bench bench(data, 4);
+  const ModelSpec model = fixed(0.2);
+  std::vector<TestComparison> tests;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const Prediction p = predict(model, bench.test(i), {});
+    tests.push_back(compare_test(bench, i, model, {}, bench.spread(model, i, {}, p)));
+    EXPECT_GT(tests[i].explained, 2) << i;
+    give_own_friction(bench, model, {}, 0.07, tests[i]);
+    EXPECT_NEAR(*tests[i].own_friction, factors[i], 0.005) << i;
+    EXPECT_NEAR(tests[i].explained, 1, 0.1) << i;
+  }
+  const auto all = compare(bench, model, {}, std::move(tests), {}).findings;
+  EXPECT_THAT(all, Contains(HasSubstr("with a friction of its own in each test, 0.93 to 1.1 times that of all")));
+  EXPECT_THAT(all, Not(Contains(HasSubstr("diagnose asks what is missing"))));
+}
+
 // A test of which only its peaks are known, computed with that specimen.
 Test of_peaks(const Specimen& specimen, double peak_mps2, double period_s) {
   Test test;

@@ -25,8 +25,10 @@ HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs
   fall_as_stated_ = own.against.dot(own.gram.completeOrthogonalDecomposition().solve(own.against));
   for (int look = 0; look < most_looks && !place_.names.empty(); ++look) {
     const double before = dispersion_.s;
-    const Judge scattered = tau2_ > 0 ? Judge(bench, fit.model, fit.x, jobs, fanned_out, friction_scatter()) : judge_;
-    const AsStated place = as_stated(bench, scattered, fit, jobs, {}, weight());
+    const ModelFit own = with_friction_of_tests();
+    const Judge scattered = tau2_ > 0 ? Judge(bench, own.model, own.x, jobs, fanned_out, friction_scatter()) : judge_;
+    AsStated place = as_stated(bench, scattered, own, jobs, {}, weight());
+    place.model.friction_of_test.clear();
     leaves_too_much_ = is_too_much(place.misfit);
     look_from(leaves_too_much_ ? AsStated{.model = fit.model, .x = fit.x, .names = {}, .is_off = {}} : place, jobs);
     if (dispersion_.s > much_less * before) break;
@@ -36,6 +38,15 @@ HistoryMisfit::HistoryMisfit(const Bench& bench, const ModelFit& fit, const Jobs
     allow(scatter_ / s, jobs);
   reduce();
   if (place_.names.empty() && !leaves_too_much_) leaves_too_much_ = is_too_much((*this)(fit.x));
+}
+
+// Each as it is where the tests were looked at.
+ModelFit HistoryMisfit::with_friction_of_tests() const {
+  ModelFit own = fit_;
+  const auto tests = tests_of(bench_.data(), Role::calibration);
+  for (std::size_t i = 0; tau2_ > 0 && i < tests.size(); ++i)
+    own.model.friction_of_test[bench_.test(tests[i]).id] = {.value = std::exp(shifts_[i])};
+  return own;
 }
 
 bool HistoryMisfit::is_too_much(double misfit) const {

@@ -63,6 +63,7 @@ class HistoryMisfit {
   void look_from(const AsStated&, const Jobs&);
   std::vector<Pull> of_numbers() const;  // of the fit alone
   void allow(double tau, const Jobs&);   // for friction that scatters by so much
+  ModelFit with_friction_of_tests() const;
   bool is_too_much(double misfit) const;
   double weight() const;
   void reduce();

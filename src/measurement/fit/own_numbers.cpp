@@ -14,10 +14,24 @@ namespace {
 const Free friction_of_one_test = {
     .name = "factor", .lower = 0.5, .upper = 2, .low = 0.8, .high = 1.25, .logarithmic = true};
 
+bool at_its_end(const Free& free, double value) {
+  constexpr double near = 1e-3;
+  return to_unit(free, value) - to_unit(free, free.lower) < near ||
+         to_unit(free, free.upper) - to_unit(free, value) < near;
+}
+
+// Places of the coefficients of friction that are numbers of the fit, where the kinetic one is.
+std::vector<std::size_t> friction_numbers(const ModelSpec& model) {
+  std::vector<std::size_t> places;
+  if (model.mu_k.free >= 0) places.push_back(static_cast<std::size_t>(model.mu_k.free));
+  if (!places.empty() && model.mu_s && model.mu_s->free >= 0)
+    places.push_back(static_cast<std::size_t>(model.mu_s->free));
+  return places;
+}
+
 // From the number of each test, and the misfit that it leaves there.
 OwnNumbers summary_of(const Judge& judge, const Free& free, const std::vector<double>& of_tests,
                       const std::vector<double>& misfits) {
-  constexpr double near = 1e-3;
   OwnNumbers own{.of_tests = of_tests};
   const auto size = [&](double value) { return free.logarithmic ? std::log(value) : value; };
   const auto tests = static_cast<double>(of_tests.size());
@@ -25,8 +39,7 @@ OwnNumbers summary_of(const Judge& judge, const Free& free, const std::vector<do
   for (std::size_t i = 0; i < of_tests.size(); ++i) {
     own.misfit += misfits[i];
     if (judge.samples()[i] > 0) own.worst = std::max(own.worst, misfits[i] / judge.samples()[i]);
-    own.at_end |= to_unit(free, of_tests[i]) - to_unit(free, free.lower) < near ||
-                  to_unit(free, free.upper) - to_unit(free, of_tests[i]) < near;
+    own.at_end |= at_its_end(free, of_tests[i]);
     mean += size(of_tests[i]) / tests;
   }
   for (const double value : of_tests) own.scatter += std::pow(size(value) - mean, 2) / std::max(tests - 1, 1.0);
@@ -83,17 +96,18 @@ OwnFriction fitted_with_own_friction(const Bench& bench, const Judge& judge, con
       }).front();
   OwnFriction found{fit, summary_of(judge, friction_of_one_test, Values(x.begin() + static_cast<long>(shared), x.end()),
                                     misfits(judge, all_of(judge), model, x))};
-  double of_all = 0;
-  if (fit.model.mu_k.free >= 0)
-    for (const double factor : found.of_tests.of_tests) of_all += std::log(factor) / static_cast<double>(tests.size());
   x.resize(shared);
+  const std::vector<std::size_t> frictions = friction_numbers(fit.model);
+  double of_all = 0;
+  if (!frictions.empty())
+    for (const double factor : found.of_tests.of_tests) of_all += std::log(factor) / static_cast<double>(tests.size());
+  for (const std::size_t k : frictions)
+    of_all = std::clamp(of_all, std::log(model.free[k].lower / x[k]), std::log(model.free[k].upper / x[k]));
+  for (const std::size_t k : frictions) x[k] *= std::exp(of_all);
   for (std::size_t k = 0; k < tests.size(); ++k) {
     found.of_tests.of_tests[k] *= std::exp(-of_all);
     found.fit.model.friction_of_test[bench.test(tests[k]).id] = {.value = found.of_tests.of_tests[k]};
   }
-  if (const int mu = fit.model.mu_k.free; mu >= 0) x[static_cast<std::size_t>(mu)] *= std::exp(of_all);
-  if (const auto& mu_s = fit.model.mu_s; mu_s && mu_s->free >= 0)
-    x[static_cast<std::size_t>(mu_s->free)] *= std::exp(of_all);
   found.fit.x = std::move(x);
   return found;
 }
@@ -103,6 +117,19 @@ OwnNumbers own_clocks(const Bench& bench, const Judge& judge, const ModelFit& fi
   const Free behind = {.name = "behind", .unit = "s", .lower = -most, .upper = most, .low = -most, .high = most};
   return fitted_to_each(bench, judge, fit, &ModelSpec::clock_behind, behind, {-most / 4, 0, most / 4}, 0.1,
                         "clock of each test", jobs);
+}
+
+std::optional<OwnFriction> with_own_friction_where_it_explains(const Bench& bench, const ModelFit& fit,
+                                                               const Jobs& jobs) {
+  const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
+  const double samples = total(judge.samples()), left = total(judge.misfit_of_fit(fit));
+  if (left <= adequate * adequate * samples) return {};
+  const OwnNumbers held = own_friction(bench, judge, fit, jobs);
+  OwnFriction found = fitted_with_own_friction(bench, judge, fit, held, jobs);
+  if (!explain_tests(found.of_tests, samples, left)) return {};
+  for (const std::size_t k : friction_numbers(fit.model))  // tests that are alike, and another range than theirs
+    if (at_its_end(fit.model.free[k], found.fit.x[k])) return {};
+  return found;
 }
 
 bool explain_tests(const OwnNumbers& own, double samples, double least_misfit) {

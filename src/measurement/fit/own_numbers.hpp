@@ -2,6 +2,8 @@
 // calibration test: a factor on its friction, or the time by which its responses are stamped late against the floor's channel [s].
 #pragma once
 
+#include <optional>
+
 #include "measurement/fit/judge.hpp"
 
 namespace freestand::measurement {
@@ -25,6 +27,9 @@ struct OwnFriction {
 };
 // All numbers together, by derivatives from where own_friction() ends.
 OwnFriction fitted_with_own_friction(const Bench&, const Judge&, const ModelFit&, const OwnNumbers& start, const Jobs&);
+
+// The same from a fit of one friction to all tests that leaves more than a model may, where frictions of their own explain the tests; else none.
+std::optional<OwnFriction> with_own_friction_where_it_explains(const Bench&, const ModelFit&, const Jobs&);
 
 // Do they explain the tests, each of them, where the best of all other models leaves least_misfit over so many samples? By more than
 // the largest gain that so many numbers make by chance. (One test in another unit is no friction that differs.)

@@ -11,6 +11,7 @@
 #include "measurement/fit/history_misfit.hpp"
 #include "measurement/fit/importance.hpp"
 #include "measurement/fit/least_squares.hpp"
+#include "measurement/fit/own_numbers.hpp"
 #include "measurement/predict/placements.hpp"
 
 namespace freestand::measurement {
@@ -237,19 +238,28 @@ Posterior posterior(const Bench& bench, const ModelFit& fit, const Jobs& jobs) {
 
 Posterior open_numbers(const Bench& bench, ModelFit& fit, const Jobs& jobs) {
   constexpr int most_restarts = 3;
-  Posterior open = posterior(bench, fit, jobs);
   const auto tests = tests_of(bench.data(), Role::calibration);
+  const auto move_to = [&](Values x) {
+    fit.x = std::move(x);
+    fit.score = mean_score(bench, tests, fit.model, fit.x);
+  };
+  int restarts = fit.evaluations > 0 ? most_restarts : 0;
+  if (kind_of_set(bench) == Kind::history && restarts > 0)
+    if (auto own = with_own_friction_where_it_explains(bench, fit, jobs)) {
+      move_to(std::move(own->fit.x));
+      restarts = 0;
+    }
+  Posterior open = posterior(bench, fit, jobs);
   bool as_drawn = false;  // from then on the plain score decides nothing
-  for (int restart = 0; restart < most_restarts && !open.better.empty() && fit.evaluations > 0; ++restart) {
+  for (int restart = 0; restart < restarts && !open.better.empty(); ++restart) {
     ModelFit from_there = fit;
     from_there.x = open.better;
     if (!as_drawn) settle(bench, from_there, Effort{}, jobs);
     as_drawn = as_drawn || !(from_there.score < fit.score);
     if (as_drawn && kind_of_set(bench) != Kind::history) break;
-    if (as_drawn) {
-      fit.x = open.better;
-      fit.score = mean_score(bench, tests, fit.model, fit.x);
-    } else
+    if (as_drawn)
+      move_to(open.better);
+    else
       fit = std::move(from_there);
     open = posterior(bench, fit, jobs);
   }

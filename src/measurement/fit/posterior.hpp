@@ -103,6 +103,7 @@ Posterior posterior(const Bench&, const ModelFit&, const Jobs&);
 // does better: downhill by the plain score, or, of histories, to the very draw where that does not fall, since draws allow for what the
 // floor's noise makes of tests that fan out, and the plain score does not: one test that is missed by 130 noise units at the true numbers
 // drew a wave of 0.250 to 0.262, outside of its own interval, and other tests were missed by 20 where the truth misses them by 3.
+// Where frictions that differ from test to test explain what such a fit leaves (own_numbers.hpp) it is that of these, with their mean.
 Posterior open_numbers(const Bench&, ModelFit&, const Jobs&);
 
 }  // namespace freestand::measurement

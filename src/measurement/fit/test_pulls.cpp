@@ -75,7 +75,15 @@ Pull OwnShifts::pull(std::size_t i, double shift) const {
   return pull;
 }
 
+// A stop more or less parts the valleys of two frictions: so from several.
 double OwnShifts::best(std::size_t i) const {
+  Shift best = best_from(i, 0);
+  for (const double start : {-0.1, 0.1})
+    if (const Shift found = best_from(i, start); found.G < best.G) best = found;
+  return best.ln;
+}
+
+OwnShifts::Shift OwnShifts::best_from(std::size_t i, double start) const {
   constexpr int steps = 6;
   constexpr double little = 1e-4;
   const auto misfit = [&](double shift, VectorXd& r) {
@@ -83,21 +91,21 @@ double OwnShifts::best(std::size_t i) const {
     r = judge_.residual(i, model);
     return model.failed() ? no_fit : judge_.against(i, r, r)[0];
   };
-  double shift = 0;
   VectorXd r;
-  double G = misfit(shift, r);
+  Shift best{start, misfit(start, r)};
   for (int k = 0; k < steps; ++k) {
-    const MatrixXd f = judge_.change(i, at(i, place_.x, shift), at(i, place_.x, shift + little)) / little;
+    const MatrixXd f = judge_.change(i, at(i, place_.x, best.ln), at(i, place_.x, best.ln + little)) / little;
     const double ff = judge_.products(i, f).gram(0, 0);
     if (!(ff > 0)) break;
     double step = std::clamp(-judge_.against(i, f, r)[0] / ff, -0.3, 0.3);
     VectorXd next;
-    double there = misfit(shift + step, next);
-    for (int half = 0; half < 4 && there > G; ++half) there = misfit(shift + (step /= 2), next);
-    if (!(there < G)) break;
-    shift += step, G = there, r = next;
+    double there = misfit(best.ln + step, next);
+    for (int half = 0; half < 4 && there > best.G; ++half) there = misfit(best.ln + (step /= 2), next);
+    if (!(there < best.G)) break;
+    best = {best.ln + step, there};
+    r = next;
   }
-  return shift;
+  return best;
 }
 
 std::vector<Pull> pulls_of(const OwnShifts& own, const std::vector<double>& shifts, const Jobs& jobs) {

@@ -34,6 +34,11 @@ class OwnShifts {
   double best(std::size_t i) const;
 
  private:
+  struct Shift {
+    double ln, G;
+  };
+  Shift best_from(std::size_t i, double start) const;
+
   const Bench& bench_;
   const Judge& judge_;
   const AsStated& place_;

@@ -226,6 +226,28 @@ TestComparison compare_test(const Bench& bench, std::size_t i, const ModelSpec& 
   return c;
 }
 
+void give_own_friction(const Bench& bench, const ModelSpec& of_all, const Values& x, double friction_scatter,
+                       TestComparison& c) {
+  constexpr int budget = 40;
+  const double once = std::exp(friction_scatter), most = std::pow(once, 3);
+  const Free factor = {
+      .name = "factor", .lower = 1 / most, .upper = most, .low = 1 / most, .high = most, .logarithmic = true};
+  ModelSpec model = of_all;
+  model.friction_factor = {.free = static_cast<int>(x.size())};
+  const Objective left = [&](std::span<const double> own) {
+    Values with_own = x;
+    with_own.push_back(own[0]);
+    return explained_error(bench, c.test, predict(model, bench.test(c.test), with_own), c.spread);
+  };
+  Fitted best{{1}, left(Values{1})};
+  for (const double start : {1 / once, 1.0, once}) {
+    Fitted found = simplex({factor}, left, {start}, 0.1, budget);
+    if (found.score < best.score) best = std::move(found);
+  }
+  c.own_friction = best.x[0];
+  c.explained = best.score;
+}
+
 Comparison compare(const Bench& bench, const ModelSpec& model, std::span<const double> x,
                    std::vector<TestComparison> tests, const Quality& quality,
                    const std::optional<OutcomeMisfit>& misfit) {

@@ -35,6 +35,8 @@ struct TestComparison {
   // Histories only, else nan: explained_error(), expected_error(), and what the floor may have done to the history between its readings, root
   // mean square [noise units]: at most so much, of a floor that is not smooth there.
   double explained = 0, expected = 0, unread = 0;
+  // Where friction scatters from test to test: a factor on that of this test, with which `explained` is least.
+  std::optional<double> own_friction = {};
   std::vector<ChannelError> channels = {};
   Prediction model = {};
   Spread spread = {};
@@ -62,6 +64,8 @@ struct Comparison {
 // x: the free numbers. spread, unread: Bench::spread and Bench::unread_spread (histories only; unread may be empty).
 TestComparison compare_test(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x, Spread spread,
                             const Spread& unread = {});
+// A friction of its own in that test, within three standard deviations of ln friction from test to test.
+void give_own_friction(const Bench&, const ModelSpec&, const Values& x, double friction_scatter, TestComparison&);
 Comparison compare(const Bench&, const ModelSpec&, std::span<const double> x, std::vector<TestComparison> tests,
                    const Quality&, const std::optional<OutcomeMisfit>& misfit = {});
 

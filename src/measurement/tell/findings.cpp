@@ -9,6 +9,7 @@
 
 #include "base/digits.hpp"
 #include "measurement/laboratory/plausible.hpp"
+#include "measurement/tell/findings_friction.hpp"
 #include "measurement/tell/findings_motion.hpp"
 #include "measurement/tell/findings_where.hpp"
 
@@ -84,6 +85,7 @@ class Findings {
           three_digits(all.floor()), part,
           near     ? left_to_explain(judged, role)
           : unread ? ": what the floor did between its readings may be all that is left"
+          : judged.n > 0 && judged.tests.front()->own_friction  ? told_with_own_friction(judged.tests, role)
           : judged.n > 0 && role == Role::calibration           ? ": diagnose asks what is missing"
           : judged.n == 0 && all.error() < nearly * all.floor() ? ", so that they cannot be judged"
                                                                 : "");
@@ -213,9 +215,12 @@ class Findings {
           under ? "underpredicts" : "overpredicts", middle, factor, under ? "high" : "low");
     else if (ratio.scatter_ln > std::max(0.05, scatter_of_noise))
       say("predicted peak slips are {}: right in the mean, as far as these tests show, but they scatter by a factor of "
-          "{:.2f} from test to test, which another friction would not mend: look for an effect that is missing, or for "
-          "what differs between the tests",
-          middle, factor);
+          "{:.2f} from test to test, {}",
+          middle, factor,
+          only_friction_differs(c_.tests)
+              ? "as friction that differs between them makes"
+              : "which another friction would not mend: look for an effect that is missing, or for "
+                "what differs between the tests");
   }
 
   // Of tests that say whether the specimen overturned: how many are missed, and whether chance explains it.
