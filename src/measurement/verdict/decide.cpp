@@ -55,6 +55,11 @@ class Decision : CandidateComparison {
                                    : "";
   }
 
+  std::string scatter_allowed_for(const Candidate& best) const {
+    return fmt::format(" (with friction that differs from test to test by {:.2g} % allowed for, from {} to {})",
+                       100 * d_.friction_scatter, three_digits(d_.base.explained), three_digits(best.explained));
+  }
+
   // What does as well as the best one and is not named, with the reason, which stands beside each in the table too.
   std::string but_for(const Candidate& best) {
     std::map<std::string, std::vector<std::string>> told;
@@ -151,12 +156,17 @@ class Decision : CandidateComparison {
           "fitted to the end does, beyond chance",
           joined(best.effects)));
     } else {
-      const std::string allowed = d_.friction_scatter > 0 ? scatter_allowed_for() : floor_noise_allowed_for(best);
-      say(fmt::format(
-          "with {} the left-out error falls from {} to {}{}; every other effect of those fitted to the end "
-          "misses the tests left out by more{}, beyond chance{}",
-          joined(best.effects), three_digits(left_out(d_.base)), three_digits(left_out(best)),
-          told_by_few(best) + allowed, allowed.empty() ? "" : " with that allowed for", ahead + what_remains(best)));
+      const bool scatters = d_.friction_scatter > 0, falls = pooled_left_out(best) < pooled_left_out(d_.base);
+      const std::string allowed =
+          scatters ? falls ? scatter_allowed_for(best) : scatter_allowed_for() : floor_noise_allowed_for(best);
+      const auto left = [&](const Candidate& c) {
+        return three_digits(scatters && !falls ? left_out(c) : pooled_left_out(c));
+      };
+      say(
+          fmt::format("with {} the left-out error falls from {} to {}{}; every other effect of those fitted to the end "
+                      "misses the tests left out by more{}, beyond chance{}",
+                      joined(best.effects), left(d_.base), left(best), told_by_few(best) + allowed,
+                      allowed.empty() ? "" : " with that allowed for", ahead + what_remains(best)));
     }
   }
 
