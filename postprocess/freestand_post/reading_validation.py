@@ -203,7 +203,8 @@ def _history(node):
 
 
 def _test(node):
-    row = node.row("error_noise_units error_relative error_floor_noise_allowed error_expected error_of_mean score overturned_probability floor_peak_g",
+    row = node.row("error_noise_units error_relative error_floor_noise_allowed error_expected error_of_mean score overturned_probability floor_peak_g "
+                   "own_friction",
                    "id role kind outcome source")
     row["overturned_measured"] = node.value.get("overturned_measured")
     row["peaks"] = {peak.text("name"): (peak.number("measured"), peak.number("model")) for peak in node.nodes("peaks")

@@ -22,6 +22,7 @@ def tests(results):
     earlier = [{test["id"]: test for test in comparison.tests} for comparison in results.comparisons]
     table = {"labels": results.labels, "several": len(results.comparisons) > 1, "history": "history" in kinds,
              "of_mean": any(math.isfinite(test["error_of_mean"]) for test in last.tests), "outcome": "outcome" in kinds, "peaks_only": kinds == {"peaks"}, "quantities": [words.with_unit(QUANTITY[name][1], QUANTITY[name][2]) for name in quantities], "rows": [],
+             "allowing": "allowing for floor noise" + " and a friction of its own" * any(math.isfinite(test["own_friction"]) for test in last.tests),
              "missed": 0, "many": len(last.tests) > MANY, "count": len(last.tests)}
     for test in last.tests:
         found = [tests.get(test["id"]) for tests in earlier]

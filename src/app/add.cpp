@@ -27,7 +27,7 @@ void tell_added(const std::string& file, const std::string& content) {
     std::vector<std::string> steps;
     for (const auto& step : v.ladder)
       steps.push_back(fmt::format("{}{} {}", step.step == "base" ? "" : "+ ", step.step, text(step.explained_holdout)));
-    fmt::print("held out, with the floor's noise and what friction differs by from test to test allowed for: {}\n",
+    fmt::print("held out, allowing for the floor's noise and for friction that differs from test to test: {}\n",
                fmt::join(steps, ", "));
   }
   for (const auto& c : v.calibrated)

@@ -206,6 +206,13 @@ class ThePage(Temporary):
         self.assertEqual(result.returncode, 3)
         self.assertIn("fitted_draws.csv is no table of numbers", result.stderr)
 
+    def test_the_table_says_that_it_allows_for_the_friction_of_each_test(self):
+        for own in (None, 0.93):
+            tests = [test | {"own_friction": own} for test in make.history_tests(1.03)]
+            page, _ = self.page(make.comparison(self.folder / str(own), tests=tests))
+            self.assertIn("allowing for floor noise", page.text)
+            self.assertEqual("allowing for floor noise and a friction of its own" in page.text, own is not None)
+
     def test_figures_writes_them_as_files(self):
         folder = make.comparison(self.folder / "one")
         result = support.run("figures", folder)

@@ -121,6 +121,7 @@ OwnNumbers own_clocks(const Bench& bench, const Judge& judge, const ModelFit& fi
 
 std::optional<OwnFriction> with_own_friction_where_it_explains(const Bench& bench, const ModelFit& fit,
                                                                const Jobs& jobs) {
+  if (tests_of(bench.data(), Role::calibration).size() < 3) return {};  // two that differ are no scatter
   const Judge judge(bench, fit.model, fit.x, jobs, fanned_out);
   const double samples = total(judge.samples()), left = total(judge.misfit_of_fit(fit));
   if (left <= adequate * adequate * samples) return {};
