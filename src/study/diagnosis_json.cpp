@@ -330,7 +330,9 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
                                                    {"chi_square_fit", number_or_null(d.own_friction->misfit)}}
                                             : Json(nullptr);
   if (d.own_friction)
-    json["friction_scatter"]["beside"] = d.friction_of_base ? Json(nullptr) : Json("the best effect, and allowed for");
+    json["friction_scatter"]["beside"] = d.friction_of_base ? Json(nullptr)
+                                                            : Json(d.proposal ? "the proposed law, and allowed for"
+                                                                              : "the best effect, and allowed for");
   json["candidates"] = Json::array();
   for (const Candidate& c : d.candidates) json["candidates"].push_back(candidate_json(bench, c));
   json["recovered_force"] = recovered_json(bench, d,

@@ -308,25 +308,10 @@ class Diagnoser : PairSearch {
   void look_for_friction_beside_an_effect() {
     const Candidate& known = best();
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return;
-    const OwnFriction own = closest_with_own_friction();
+    const OwnFriction own = closest_with_own_friction(tried_alone());
     const double least = what_suits(known.fit).misfit - chance_of_another(known).observed;
     look_at_clocks(judge_of(known.fit), known, std::min(least, own.of_tests.misfit));
     if (clocks_at_fault_.empty() && explain_tests(own.of_tests, total(out_.samples), least)) friction_beside_ = own;
-  }
-
-  // Of the effects alone. All their numbers are fitted together with the tests' frictions for the few that come closest with their own held.
-  OwnFriction closest_with_own_friction() const {
-    constexpr std::size_t fitted_together = 4;
-    std::vector<std::pair<OwnNumbers, const ModelFit*>> held;
-    for (const ModelFit* fit : tried_alone()) held.emplace_back(own_friction(bench_, judge_of(*fit), *fit, jobs_), fit);
-    std::ranges::stable_sort(held, {}, [](const auto& one) { return one.first.misfit; });
-    held.resize(std::min(held.size(), fitted_together));
-    std::optional<OwnFriction> closest;
-    for (const auto& [own, fit] : held) {
-      OwnFriction found = fitted_with_own_friction(bench_, judge_of(*fit), *fit, own, jobs_);
-      if (!closest || found.of_tests.misfit < closest->of_tests.misfit) closest = std::move(found);
-    }
-    return *closest;
   }
 
   bool friction_known_ = false;

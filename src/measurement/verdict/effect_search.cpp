@@ -191,6 +191,20 @@ Chance EffectSearch::chance_of_another(const Candidate& candidate) const {
   return chance;
 }
 
+OwnFriction EffectSearch::closest_with_own_friction(const std::vector<const ModelFit*>& fits) const {
+  constexpr std::size_t fitted_together = 4;
+  std::vector<std::pair<OwnNumbers, const ModelFit*>> held;
+  for (const ModelFit* fit : fits) held.emplace_back(own_friction(bench_, judge_of(*fit), *fit, jobs_), fit);
+  std::ranges::stable_sort(held, {}, [](const auto& one) { return one.first.misfit; });
+  held.resize(std::min(held.size(), fitted_together));
+  std::optional<OwnFriction> closest;
+  for (const auto& [own, fit] : held) {
+    OwnFriction found = fitted_with_own_friction(bench_, judge_of(*fit), *fit, own, jobs_);
+    if (!closest || found.of_tests.misfit < closest->of_tests.misfit) closest = std::move(found);
+  }
+  return *closest;
+}
+
 void EffectSearch::judge() {
   if (kind_of_set(bench_) == Kind::history) {
     const Judge judge = judge_of(best().fit);

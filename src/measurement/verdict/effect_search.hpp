@@ -79,6 +79,8 @@ class EffectSearch {
   Chance chance_as_stated(const Judge&, const ModelFit&) const;
   // Does one more effect help beside those of a candidate? Of all that may join it, beyond such deviations.
   Chance chance_of_another(const Candidate&) const;
+  // Of these fits. All numbers are fitted together with the tests' frictions for the few that come closest with their own held.
+  OwnFriction closest_with_own_friction(const std::vector<const ModelFit*>&) const;
   std::vector<Values> starts_of(const dynamics::Effect&, const ModelSpec&) const;
   const dynamics::Effect& of_catalogue(const std::string& name) const;
   // Of peaks each test tells one number, whose others follow from it: with as many numbers as tests nothing could be left out. A history tells

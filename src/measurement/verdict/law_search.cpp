@@ -40,13 +40,40 @@ class LawSearch : PairSearch {
       out_.friction_scatter = diagnosis.friction_scatter;
   }
 
-  void run() {
+  // The base with the friction of each test as it was found beside a law.
+  void know(const OwnNumbers& friction) {
+    FitTask task{.model = base_, .screened = false};
+    task.starts = {out_.base.fit.x};
+    out_.base.fit = std::move(fit_models(bench_, {task}, quick(), jobs_)[0]);
+    leave_out({&out_.base.fit});
+    out_.friction_scatter = friction.scatter;
+  }
+
+  // Where no form is enough, nor any effect: the friction of each test, if one is with that.
+  std::optional<OwnFriction> friction_beside_a_law() {
+    fit_forms();
+    if (diagnosis_.verdict != Verdict::unknown || out_.friction_scatter > 0 || chance_of_misfit_of(best().fit).chance())
+      return {};
+    std::vector<const ModelFit*> fits;
+    for (const Candidate& c : out_.candidates)
+      if (c.visible) fits.push_back(&c.fit);
+    if (fits.empty()) return {};
+    OwnFriction own = closest_with_own_friction(fits);
+    const double least = std::min(least_misfit(diagnosis_), least_misfit(out_));
+    if (!explain_tests(own.of_tests, total(diagnosis_.samples), least)) return {};
+    return own;
+  }
+
+  void fit_forms() {
     const Singles forms = single_effects();
     fit(forms);
     // Long histories have many valleys beside the one that the law lies in.
     if (!chance_of_misfit_of(best().fit).chance())
       fit_again_by_strides(forms.tasks, forms.tasks.size(), options_.pair_finals, options_.effort);
     judge();
+  }
+
+  void propose() {
     if (!forms_may_help()) return;
     // A law of two variables: one form's factor on friction, or force, beside another's.
     const Candidate one = best();
@@ -58,11 +85,14 @@ class LawSearch : PairSearch {
     if (diagnosis_.verdict == Verdict::unknown && !earns_its_numbers(*form)) return;
     diagnosis_.proposal = *form;
     if (diagnosis_.verdict != Verdict::unknown) withdraw(*form);
-    diagnosis_.sentences.push_back(
-        fmt::format("a law of no catalogue does {}: {}; it brings the left-out error from {} to {} (proposed_law.yaml, "
-                    "which `freestand add` takes)",
-                    better ? "better" : "as well", law_of(*form), three_digits(left_out(diagnosis_.base.fit)),
-                    three_digits(left_out(form->fit))));
+    diagnosis_.sentences.push_back(fmt::format(
+        "a law of no catalogue does {}: {}; it brings the left-out error from {} to {}{} (proposed_law.yaml, "
+        "which `freestand add` takes)",
+        better ? "better" : "as well", law_of(*form), three_digits(left_out(out_.base.fit)),
+        three_digits(left_out(form->fit)),
+        out_.friction_scatter > 0
+            ? fmt::format(", friction that differs from test to test by {:.2g} % known", 100 * out_.friction_scatter)
+            : ""));
   }
 
  private:
@@ -117,8 +147,8 @@ class LawSearch : PairSearch {
   // Half of what the base leaves of tests left out, in the mean square, or a part of it in so many of them that it is no chance: where each
   // test differs from the others a law in their stead misses them all the same.
   bool earns_its_numbers(const Candidate& form) const {
-    const auto &before = diagnosis_.base.fit.left_out, &after = form.fit.left_out;
-    if (std::pow(left_out(form.fit), 2) <= std::pow(left_out(diagnosis_.base.fit), 2) / 2) return true;
+    const auto &before = out_.base.fit.left_out, &after = form.fit.left_out;
+    if (std::pow(left_out(form.fit), 2) <= std::pow(left_out(out_.base.fit), 2) / 2) return true;
     const Pooled gain = paired_difference(before, after);
     const auto n = static_cast<double>(after.size());
     return n > 1 && gain.error > gsl_cdf_tdist_Pinv(1 - chance_level, n - 1) * gain.standard_error;
@@ -164,7 +194,17 @@ void propose_law(const Bench& bench, const ModelSpec& base, const std::vector<co
   if (diagnosis.verdict != Verdict::unknown && is_enough_by_chance(diagnosis) && !several_are_enough(diagnosis)) return;
   ModelSpec from = base;
   if (diagnosis.verdict == Verdict::unknown) from.friction_of_test = diagnosis.base.fit.model.friction_of_test;
-  LawSearch(bench, from, forms, options, jobs, diagnosis).run();
+  LawSearch search(bench, from, forms, options, jobs, diagnosis);
+  const std::optional<OwnFriction> own = search.friction_beside_a_law();
+  if (!own) return search.propose();
+  from.friction_of_test = own->fit.model.friction_of_test;
+  LawSearch again(bench, from, forms, options, jobs, diagnosis);
+  again.know(own->of_tests);
+  again.fit_forms();
+  again.propose();
+  if (!diagnosis.proposal) return;
+  diagnosis.own_friction = own->of_tests;
+  diagnosis.friction_of_base = false;
 }
 
 LawBand law_band(const ModelFit& fit, const LawAt& law) {
