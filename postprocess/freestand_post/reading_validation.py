@@ -213,11 +213,11 @@ def _test(node):
 
 
 def _role(node):
-    return node.row("error_noise_units error_relative error error_expected tests") if node else {}
+    return node.row("error_noise_units error_relative error error_expected error_floor_noise_allowed tests") if node else {}
 
 
 def _ladder(root):
-    return [node.row("error_calibration error_holdout noise_floor noise_floor_holdout", "step") for node in root.nodes("ladder")]
+    return [node.row("error_calibration error_holdout noise_floor noise_floor_holdout explained_calibration explained_holdout", "step") for node in root.nodes("ladder")]
 
 
 def read_comparison(folder):

@@ -47,17 +47,24 @@ class Validation:
         between = [style.ORANGE, style.PURPLE, style.SKY]
         return [style.BLUE if i == n - 1 else style.VERMILION if i == 0 else between[(i - 1) % 3] for i in range(n)]
 
+    @property
+    def own_friction(self):
+        """Does friction scatter from test to test, so that errors are told with a friction of its own in each?"""
+        return bool(self.last) and any(math.isfinite(test["own_friction"]) for test in self.last.tests)
+
     def ladder(self):
-        """[{step, model, error_calibration, error_holdout, noise_floor, noise_floor_holdout}] of the folders, or of the study where it holds more."""
+        """[{step, model, error_calibration, error_holdout, noise_floor, noise_floor_holdout}] of the folders, or of the study where it holds more;
+        where friction scatters with the floor's noise and the friction of each test allowed for."""
         if not self.last:
             return []
         shown, before = [], None
+        error = "error_floor_noise_allowed" if self.own_friction else "error"
         for comparison in self.comparisons:
             fresh = [name for name in comparison.effects if before and name not in before.effects]
             grown = before is not None and set(before.effects) < set(comparison.effects)
             shown.append({"step": f"+ {effects(fresh)}" if grown else model_name(comparison.effects),
-                          "model": model_name(comparison.effects), "error_calibration": comparison.calibration.get("error", np.nan),
-                          "error_holdout": comparison.holdout.get("error", np.nan),
+                          "model": model_name(comparison.effects), "error_calibration": comparison.calibration.get(error, np.nan),
+                          "error_holdout": comparison.holdout.get(error, np.nan),
                           "noise_floor": comparison.calibration.get("error_expected", np.nan),
                           "noise_floor_holdout": comparison.holdout.get("error_expected", np.nan)})
             before = comparison
@@ -66,6 +73,8 @@ class Validation:
         kept, held = [], []
         for row in self.last.ladder:
             held = held + [row["step"]] * (row["step"] != "base")
+            if self.own_friction:
+                row = row | {"error_calibration": row["explained_calibration"], "error_holdout": row["explained_holdout"]}
             kept.append(row | {"step": f"+ {effect(row['step'])}" if row["step"] != "base" else "base", "model": model_name(held)})
         return kept if len(kept) > len(shown) else shown
 

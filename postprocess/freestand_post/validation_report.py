@@ -94,11 +94,12 @@ def _headline(results):
     diagnosis, first, last = results.diagnosis, results.first, results.last
     found = []
     if diagnosis:
+        known = ", the friction of each test known" * bool((diagnosis.raw.get("friction_scatter") or {}).get("beside"))
         best = diagnosis.best
-        found.append((diagnosis.base.get("error_left_out", math.nan), "base model, on tests left out of the fit"))
+        found.append((diagnosis.base.get("error_left_out", math.nan), f"base model, on tests left out of the fit{known}"))
         best = diagnosis.proposal or best
         name = validation.effect(best.get("effect", ""))
-        found.append((best.get("error_left_out", math.nan), verdict.best_in_words(diagnosis, name)))
+        found.append((best.get("error_left_out", math.nan), verdict.best_in_words(diagnosis, name) + known))
     else:
         for k in sorted({0, len(results.comparisons) - 1}):
             comparison = results.comparisons[k]
@@ -109,7 +110,9 @@ def _headline(results):
                 unit = "Brier score " if comparison.unit == "Brier" else ""
                 found.append((comparison.calibration.get("error", math.nan), f"{unit}on calibration tests{_of(results, k)}"))
     if last:
-        found.append((last.holdout.get("error", math.nan), f"on held-out tests, which no fit has seen{_of(results, -1)}"))
+        own = ", with a friction of its own in each" * results.own_friction
+        found.append((last.holdout.get("error_floor_noise_allowed" if own else "error", math.nan),
+                      f"on held-out tests, which no fit has seen{own}{_of(results, -1)}"))
     return [(validation.error(value), what) for value, what in found if math.isfinite(value)] + _noise_floor(results)
 
 

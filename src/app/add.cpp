@@ -17,19 +17,26 @@ struct AddOptions : ValidationOptions {
 
 std::string text(double error) { return std::isfinite(error) ? freestand::three_digits(error) : "-"; }
 
+// Where it makes a difference.
+void tell_allowed(const std::vector<study::LadderStep>& ladder, const char* tests, double study::LadderStep::*error,
+                  double study::LadderStep::*explained) {
+  if (!(ladder.back().*explained < 0.8 * ladder.back().*error)) return;
+  std::vector<std::string> steps;
+  for (const study::LadderStep& step : ladder)
+    steps.push_back(fmt::format("{}{} {}", step.step == "base" ? "" : "+ ", step.step, text(step.*explained)));
+  fmt::print("{}, allowing for the floor's noise and for friction that differs from test to test: {}\n", tests,
+             fmt::join(steps, ", "));
+}
+
 void tell_added(const std::string& file, const std::string& content) {
   const study::Validation v = study::parse_validation(content, file);
   fmt::print("{:<28} {:>12} {:>12} {:>12}\n", "model", "calibration", "held out", "noise floor");
   for (const auto& step : v.ladder)
     fmt::print("{:<28} {:>12} {:>12} {:>12}\n", (step.step == "base" ? "" : "+ ") + step.step,
                text(step.error_calibration), text(step.error_holdout), text(step.noise_floor));
-  if (const auto& last = v.ladder.back(); last.explained_holdout < 0.8 * last.error_holdout) {
-    std::vector<std::string> steps;
-    for (const auto& step : v.ladder)
-      steps.push_back(fmt::format("{}{} {}", step.step == "base" ? "" : "+ ", step.step, text(step.explained_holdout)));
-    fmt::print("held out, allowing for the floor's noise and for friction that differs from test to test: {}\n",
-               fmt::join(steps, ", "));
-  }
+  tell_allowed(v.ladder, "calibration", &study::LadderStep::error_calibration,
+               &study::LadderStep::explained_calibration);
+  tell_allowed(v.ladder, "held out", &study::LadderStep::error_holdout, &study::LadderStep::explained_holdout);
   for (const auto& c : v.calibrated)
     if (c.value) fmt::print("{} = {:.5g}\n", c.name, *c.value);
   fmt::print("study in {}\n", file);

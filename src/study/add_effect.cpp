@@ -93,7 +93,8 @@ LadderStep step_of(const std::string& step, const Prepared& p, const ModelFit& f
           out.tests ? out.error : none,
           in.expected,
           out.tests ? out.expected : none,
-          out.tests ? out.explained : none};
+          out.tests ? out.explained : none,
+          in.explained};
 }
 
 YAML::Node ladder_node(const std::vector<LadderStep>& ladder) {
@@ -109,6 +110,7 @@ YAML::Node ladder_node(const std::vector<LadderStep>& ladder) {
     put("noise_floor", s.noise_floor);
     put("noise_floor_holdout", s.noise_floor_holdout);
     put("explained_holdout", s.explained_holdout);
+    put("explained_calibration", s.explained_calibration);
     step.SetStyle(YAML::EmitterStyle::Flow);
     list.push_back(step);
   }

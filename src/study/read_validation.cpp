@@ -26,7 +26,8 @@ std::vector<LadderStep> read_ladder(Section& file) {
     Section section((*node)[i], fmt::format("ladder[{}]", i), file.line("ladder"), file.problems());
     const auto number = [&](const char* key) { return section.number(key, std::nan("")); };
     ladder.push_back({section.text("step", "base"), number("error_calibration"), number("error_holdout"),
-                      number("noise_floor"), number("noise_floor_holdout"), number("explained_holdout")});
+                      number("noise_floor"), number("noise_floor_holdout"), number("explained_holdout"),
+                      number("explained_calibration")});
     section.finish();
   }
   return ladder;

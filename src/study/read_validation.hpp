@@ -41,7 +41,9 @@ struct LadderStep {
   double error_calibration = 0, error_holdout = 0;
   double noise_floor = 0,
          noise_floor_holdout = 0;  // what noise alone would make, in the calibration tests; held-out ones
-  double explained_holdout = 0;    // error_holdout with the floor's noise allowed for, and the friction of each test where it scatters
+  double explained_holdout =
+      0;  // error_holdout with the floor's noise allowed for, and the friction of each test where it scatters
+  double explained_calibration = 0;  // the same of the calibration tests
 };
 
 struct Validation {

@@ -274,12 +274,12 @@ void average_over_draws(const Bench& bench, const ModelSpec& model, const Poster
 }
 
 // The predictions stay those of one friction for all tests.
-void allow_own_friction(const Bench& bench, const ModelFit& fit, double scatter, std::vector<TestComparison>& tests,
-                        const Jobs& jobs) {
+void allow_own_friction(const Bench& bench, const ModelFit& fit, const Posterior& open,
+                        std::vector<TestComparison>& tests, const Jobs& jobs) {
   const auto answers = jobs("friction of each test", tests.size(), [&](std::size_t i) {
     if (!bench.test(tests[i].test).has_history()) return Values{};
     TestComparison own{.test = tests[i].test, .spread = tests[i].spread};
-    give_own_friction(bench, fit.model, fit.x, scatter, own);
+    give_own_friction(bench, fit.model, fit.x, open.friction_scatter, open.friction_freedom, own);
     return Values{own.explained, *own.own_friction};
   });
   for (std::size_t i = 0; i < tests.size(); ++i)
@@ -314,7 +314,7 @@ std::vector<TestComparison> compare_tests(const Bench& bench, const ModelFit& fi
     tests.push_back(compare_test(bench, i, fit.model, fit.x, std::move(of_noise), next()));
   }
   average_over_draws(bench, fit.model, open, tests, jobs);
-  if (open.friction_scatter > 0) allow_own_friction(bench, fit, open.friction_scatter, tests, jobs);
+  if (open.friction_scatter > 0) allow_own_friction(bench, fit, open, tests, jobs);
   return tests;
 }
 
@@ -356,7 +356,8 @@ nlohmann::ordered_json ladder_json(const std::vector<LadderStep>& ladder) {
                     {"error_holdout", number_or_null(step.error_holdout)},
                     {"noise_floor", number_or_null(step.noise_floor)},
                     {"noise_floor_holdout", number_or_null(step.noise_floor_holdout)},
-                    {"explained_holdout", number_or_null(step.explained_holdout)}});
+                    {"explained_holdout", number_or_null(step.explained_holdout)},
+                    {"explained_calibration", number_or_null(step.explained_calibration)}});
   return json;
 }
 

@@ -29,7 +29,7 @@
 //     position_m, direction (where slip was measured), normal_g, time_s, floor_g; growth: change of the residual within
 //     0.1 s, of the channel that changes more, or of one (0: not measured)
 //   ladder: [{step, error_calibration, error_holdout, noise_floor (of the calibration tests), noise_floor_holdout,
-//     explained_holdout (error_floor_noise_allowed of the held-out tests)}] of the study
+//     explained_holdout, explained_calibration (error_floor_noise_allowed of these tests)}] of the study
 //
 // diagnosis.json
 //   format "freestand-diagnosis/2", study, measurements, fingerprint (of all that it follows from), error_unit, verdict, effects, sentences, findings

@@ -55,7 +55,7 @@ TEST(Findings, FrictionThatDiffersFromTestToTestIsNoEffect) {
     const Prediction p = predict(model, bench.test(i), {});
     tests.push_back(compare_test(bench, i, model, {}, bench.spread(model, i, {}, p)));
     EXPECT_GT(tests[i].explained, 2) << i;
-    give_own_friction(bench, model, {}, 0.07, tests[i]);
+    give_own_friction(bench, model, {}, 0.07, 3, tests[i]);
     EXPECT_NEAR(*tests[i].own_friction, factors[i], 0.005) << i;
     EXPECT_NEAR(tests[i].explained, 1, 0.1) << i;
   }

@@ -33,7 +33,8 @@ def _picture(results, steps):
     ax.tick_params(axis="x", length=0, pad=6)
     style.grid(ax)
     finding = _finding(results, steps)
-    style.headline(fig, finding, f"Root mean square error in {results.unit} of each model of the ladder."
+    allowing = ", with the floor's noise and the friction of each test allowed for" * results.own_friction
+    style.headline(fig, finding, f"Root mean square error in {results.unit} of each model of the ladder{allowing}."
                    if results.unit == "noise units" else f"Error ({results.unit}) of each model of the ladder.")
     _labels(ax, values, len(steps) - 1)
     return Picture("ladder", fig, finding, CAPTION.format(floor=FLOOR.get(results.unit, "the noise of sensors and floor motion alone")), "ladder")

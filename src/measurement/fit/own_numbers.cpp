@@ -29,20 +29,36 @@ std::vector<std::size_t> friction_numbers(const ModelSpec& model) {
   return places;
 }
 
-// From the number of each test, and the misfit that it leaves there.
+constexpr double tells = 1;  // rise of the misfit G by which a test tells of a number: one standard deviation
+
+// The tests that tell of their own friction from both sides: one that stands still bounds it from below alone, or not at all. All, where hardly one does.
+std::vector<std::size_t> telling(const Judge& judge, const ModelSpec& model, const Values& x, std::size_t first,
+                                 const std::vector<double>& least) {
+  constexpr double step = 1.05;
+  Values more = x, less = x;
+  for (std::size_t k = first; k < x.size(); ++k) more[k] *= step, less[k] /= step;
+  const std::vector<double> above = misfits(judge, all_of(judge), model, more),
+                            below = misfits(judge, all_of(judge), model, less);
+  std::vector<std::size_t> tell;
+  for (std::size_t k = 0; k < least.size(); ++k)
+    if (std::min(above[k], below[k]) > least[k] + tells) tell.push_back(k);
+  return tell.size() < 2 ? all_of(judge) : tell;
+}
+
+// From the number of each test, and the misfit that it leaves there. tell: the tests that tell of it, by which it scatters.
 OwnNumbers summary_of(const Judge& judge, const Free& free, const std::vector<double>& of_tests,
-                      const std::vector<double>& misfits) {
+                      const std::vector<double>& misfits, const std::vector<std::size_t>& tell) {
   OwnNumbers own{.of_tests = of_tests};
   const auto size = [&](double value) { return free.logarithmic ? std::log(value) : value; };
-  const auto tests = static_cast<double>(of_tests.size());
+  const auto tests = static_cast<double>(tell.size());
   double mean = 0;
   for (std::size_t i = 0; i < of_tests.size(); ++i) {
     own.misfit += misfits[i];
     if (judge.samples()[i] > 0) own.worst = std::max(own.worst, misfits[i] / judge.samples()[i]);
     own.at_end |= at_its_end(free, of_tests[i]);
-    mean += size(of_tests[i]) / tests;
   }
-  for (const double value : of_tests) own.scatter += std::pow(size(value) - mean, 2) / std::max(tests - 1, 1.0);
+  for (const std::size_t i : tell) mean += size(of_tests[i]) / tests;
+  for (const std::size_t i : tell) own.scatter += std::pow(size(of_tests[i]) - mean, 2) / std::max(tests - 1, 1.0);
   own.scatter = std::sqrt(own.scatter);
   return own;
 }
@@ -69,7 +85,7 @@ OwnNumbers fitted_to_each(const Bench& bench, const Judge& judge, const ModelFit
   });
   std::vector<double> values, left;
   for (const Values& answer : answers) values.push_back(answer[0]), left.push_back(answer[1]);
-  return summary_of(judge, free, values, left);
+  return summary_of(judge, free, values, left, all_of(judge));
 }
 
 }  // namespace
@@ -94,20 +110,30 @@ OwnFriction fitted_with_own_friction(const Bench& bench, const Judge& judge, con
   x = jobs("friction of each test", 1, [&](std::size_t) {
         return least_squares(judge, all_of(judge), model, x, rounds).x;
       }).front();
-  OwnFriction found{fit, summary_of(judge, friction_of_one_test, Values(x.begin() + static_cast<long>(shared), x.end()),
-                                    misfits(judge, all_of(judge), model, x))};
-  x.resize(shared);
+  const std::vector<double> least = misfits(judge, all_of(judge), model, x);
+  const std::vector<std::size_t> tell = telling(judge, model, x, shared, least);
   const std::vector<std::size_t> frictions = friction_numbers(fit.model);
   double of_all = 0;
-  if (!frictions.empty())
-    for (const double factor : found.of_tests.of_tests) of_all += std::log(factor) / static_cast<double>(tests.size());
+  for (const std::size_t k : tell)
+    if (!frictions.empty()) of_all += std::log(x[shared + k]) / static_cast<double>(tell.size());
   for (const std::size_t k : frictions)
     of_all = std::clamp(of_all, std::log(model.free[k].lower / x[k]), std::log(model.free[k].upper / x[k]));
-  for (const std::size_t k : frictions) x[k] *= std::exp(of_all);
+  // Of one that stands still nothing is known: it has that of all, unless it moves with that.
+  Values common = x;
+  for (std::size_t k = 0; k < tests.size(); ++k)
+    if (!std::ranges::count(tell, k)) common[shared + k] = std::exp(of_all);
+  const std::vector<double> left = misfits(judge, all_of(judge), model, common);
+  std::vector<double> own, misfit;
   for (std::size_t k = 0; k < tests.size(); ++k) {
-    found.of_tests.of_tests[k] *= std::exp(-of_all);
-    found.fit.model.friction_of_test[bench.test(tests[k]).id] = {.value = found.of_tests.of_tests[k]};
+    const bool as_all = left[k] < least[k] + tells;
+    own.push_back((as_all ? common : x)[shared + k] * std::exp(-of_all));
+    misfit.push_back(as_all ? left[k] : least[k]);
   }
+  OwnFriction found{fit, summary_of(judge, friction_of_one_test, own, misfit, tell)};
+  x.resize(shared);
+  for (const std::size_t k : frictions) x[k] *= std::exp(of_all);
+  for (std::size_t k = 0; k < tests.size(); ++k)
+    found.fit.model.friction_of_test[bench.test(tests[k]).id] = {.value = own[k]};
   found.fit.x = std::move(x);
   return found;
 }

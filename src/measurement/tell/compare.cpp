@@ -9,6 +9,7 @@
 #include "base/random.hpp"
 #include "base/units.hpp"
 #include "measurement/data/smooth.hpp"
+#include "measurement/levels.hpp"
 #include "measurement/tell/findings.hpp"
 
 namespace freestand::measurement {
@@ -227,9 +228,10 @@ TestComparison compare_test(const Bench& bench, std::size_t i, const ModelSpec& 
 }
 
 void give_own_friction(const Bench& bench, const ModelSpec& of_all, const Values& x, double friction_scatter,
-                       TestComparison& c) {
+                       double freedom, TestComparison& c) {
   constexpr int budget = 40;
-  const double once = std::exp(friction_scatter), most = std::pow(once, 3);
+  const double beyond = gsl_cdf_tdist_Qinv(gsl_cdf_ugaussian_Q(fault_deviations), freedom),
+               once = std::exp(friction_scatter), most = std::min(2.0, std::exp(beyond * friction_scatter));
   const Free factor = {
       .name = "factor", .lower = 1 / most, .upper = most, .low = 1 / most, .high = most, .logarithmic = true};
   ModelSpec model = of_all;

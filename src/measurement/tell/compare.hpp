@@ -64,8 +64,10 @@ struct Comparison {
 // x: the free numbers. spread, unread: Bench::spread and Bench::unread_spread (histories only; unread may be empty).
 TestComparison compare_test(const Bench&, std::size_t test, const ModelSpec&, std::span<const double> x, Spread spread,
                             const Spread& unread = {});
-// A friction of its own in that test, within three standard deviations of ln friction from test to test.
-void give_own_friction(const Bench&, const ModelSpec&, const Values& x, double friction_scatter, TestComparison&);
+// A friction of its own in that test, within what one of 370 tests lies beyond (Student's t, of the standard deviation of ln friction from test
+// to test), and a factor of two.
+void give_own_friction(const Bench&, const ModelSpec&, const Values& x, double friction_scatter, double freedom,
+                       TestComparison&);
 Comparison compare(const Bench&, const ModelSpec&, std::span<const double> x, std::vector<TestComparison> tests,
                    const Quality&, const std::optional<OutcomeMisfit>& misfit = {});
 

@@ -56,8 +56,11 @@ class Decision : CandidateComparison {
   }
 
   std::string scatter_allowed_for(const Candidate& best) const {
-    return fmt::format(" (with friction that differs from test to test by {:.2g} % allowed for, from {} to {})",
-                       100 * d_.friction_scatter, three_digits(d_.base.explained), three_digits(best.explained));
+    return fmt::format(
+        ", the friction of each test being known (it differs by {:.2g} %; with the floor's noise allowed for, too, "
+        "from {} "
+        "to {})",
+        100 * d_.friction_scatter, three_digits(d_.base.explained), three_digits(best.explained));
   }
 
   // What does as well as the best one and is not named, with the reason, which stands beside each in the table too.

@@ -96,7 +96,7 @@ class LawSearch : PairSearch {
   }
 
  private:
-  bool beside_scatter() const { return diagnosis_.friction_scatter > 0 && diagnosis_.verdict != Verdict::unknown; }
+  bool beside_scatter() const { return diagnosis_.friction_scatter > 0 && base_.friction_of_test.empty(); }
 
   void withdraw(const Candidate& form) {
     const bool several = several_are_enough(diagnosis_);
@@ -193,7 +193,8 @@ void propose_law(const Bench& bench, const ModelSpec& base, const std::vector<co
   if (diagnosis.verdict == Verdict::none) return;
   if (diagnosis.verdict != Verdict::unknown && is_enough_by_chance(diagnosis) && !several_are_enough(diagnosis)) return;
   ModelSpec from = base;
-  if (diagnosis.verdict == Verdict::unknown) from.friction_of_test = diagnosis.base.fit.model.friction_of_test;
+  if (diagnosis.verdict == Verdict::unknown || several_are_enough(diagnosis))
+    from.friction_of_test = diagnosis.base.fit.model.friction_of_test;
   LawSearch search(bench, from, forms, options, jobs, diagnosis);
   const std::optional<OwnFriction> own = search.friction_beside_a_law();
   if (!own) return search.propose();
