@@ -304,14 +304,17 @@ class Diagnoser : PairSearch {
   }
 
   // Where even the best effect leaves more than chance: does it, or another, less with a friction, or a clock, of its own in each test, and by
-  // more than one more effect would? Then each test has that friction, or the clocks are at fault.
+  // more than one more effect would? Then each test has that friction, or the clocks are at fault. (A drag that grows with the square of the
+  // speed is near enough to one in proportion to it with such frictions, and leaves more than chance.)
   void look_for_friction_beside_an_effect() {
     const Candidate& known = best();
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return;
     const OwnFriction own = closest_with_own_friction(tried_alone());
     const double least = what_suits(known.fit).misfit - chance_of_another(known).observed;
     look_at_clocks(judge_of(known.fit), known, std::min(least, own.of_tests.misfit));
-    if (clocks_at_fault_.empty() && explain_tests(own.of_tests, total(out_.samples), least)) friction_beside_ = own;
+    if (clocks_at_fault_.empty() && explain_tests(own.of_tests, total(out_.samples), least) &&
+        chance_as_stated(judge_of(own.fit), own.fit).chance())
+      friction_beside_ = own;
   }
 
   bool friction_known_ = false;
