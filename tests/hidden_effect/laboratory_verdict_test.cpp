@@ -13,6 +13,8 @@
 #include "measurement/verdict/candidates.hpp"
 #include "measurement/verdict/chance.hpp"
 #include "measurement/verdict/diagnose.hpp"
+#include "measurement/verdict/law_search.hpp"
+#include "study/law_forms.hpp"
 #include "study/read_measurements.hpp"
 #include "support/free_friction.hpp"
 #include "support/repeats.hpp"
@@ -103,6 +105,27 @@ TEST(LaboratoryVerdict, TheFrictionOfEachTestIsFittedBesideALaw) {
     EXPECT_GT(upper, truth) << number;
     EXPECT_LT(upper - lower, 0.3 * truth) << number;
   }
+}
+
+// A drag that grows with the square of the speed, beside friction that scatters by 6 %: one in proportion to the speed is near enough with such
+// frictions, and was named, with another effect.
+TEST(LaboratoryVerdict, ALawOfNoCatalogueIsFoundThoughFrictionScatters) {
+  const Scratch scratch("law_beside_friction");
+  write_set(make_set(request({"quadratic_drag"}, "friction_scatter", 7, 13201, 8)), scratch.folder());
+  const measurement::Dataset data = study::read_measurements(scratch / "dataset.yaml");
+  measurement::Bench bench(data, 16);
+  bench.estimate_sensors();
+  Diagnosis d = measurement::diagnose(bench, free_friction(), {effects::find("viscous_drag")}, {}, run_here);
+  EXPECT_TRUE(d.effects.empty()) << testing::PrintToString(d.sentences);
+  std::vector<const dynamics::Effect*> forms;
+  for (const study::LawForm& form : study::law_forms())
+    if (form.effect.name == "quadratic_drag" || form.effect.name == "law_of_path") forms.push_back(&form.effect);
+  ASSERT_EQ(forms.size(), 2u);
+  propose_law(bench, free_friction(), forms, {}, run_here, d);
+  EXPECT_EQ(d.verdict, Verdict::unknown);
+  ASSERT_TRUE(d.proposal) << testing::PrintToString(d.sentences);
+  EXPECT_EQ(d.proposal->effects, std::vector<std::string>{"quadratic_drag"});
+  EXPECT_NEAR(d.own_friction->scatter, 0.05, 0.03);
 }
 
 // One clock that is off beside a law: the law alone misses that test, and is named with the clock.
