@@ -109,7 +109,9 @@ def judged(answer, diagnosis):
         if twins and named == hidden | twins:
             return "right"
         return "ambiguous" if hidden <= named else "wrong"
-    return "right" if named == hidden and (not twins or len(hidden) > 1) else "wrong"
+    # Twins part where friction differs from test to test: what depends on the direction is a share of friction, a tilt is not.
+    parted = not twins or len(hidden) > 1 or answer.get("fault") == "friction_scatter"
+    return "right" if named == hidden and parted else "wrong"
 
 
 class Bench:

@@ -42,6 +42,13 @@ class Judged(unittest.TestCase):
         self.check("right", truth, "missing", ["b", "a"])
         self.check("wrong", truth, "missing", ["a"])
 
+    def test_friction_that_differs_from_test_to_test_parts_twins(self):
+        told = diagnosis("missing", ["floor_tilt"])
+        for fault, expected in (("friction_scatter", "right"), ("drift", "wrong"), (None, "wrong")):
+            self.assertEqual(judged(answer(["floor_tilt"], TWINS) | {"fault": fault}, told), expected, fault)
+        other = answer(["directional_friction"], TWINS) | {"fault": "friction_scatter"}
+        self.assertEqual(judged(other, told), "wrong")
+
     def test_twins_are_named_both(self):
         truth = answer(["floor_tilt"], TWINS)
         self.check("right", truth, "ambiguous", TWINS)
