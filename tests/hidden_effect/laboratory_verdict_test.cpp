@@ -26,15 +26,20 @@ namespace {
 using measurement::Diagnosis;
 using measurement::Verdict;
 
+// The set as its files tell it.
+measurement::Dataset read_back(const MadeSet& set) {
+  const Scratch scratch("laboratory");
+  write_set(set, scratch.folder());
+  return study::read_measurements(scratch / "dataset.yaml");
+}
+
 // changed: what befalls the set after it was measured.
 using Changed = void (*)(MadeSet&);
 
 Diagnosis diagnosed(const SetRequest& request, const std::vector<const char*>& names, Changed changed = nullptr) {
-  const Scratch scratch("laboratory");
   MadeSet set = make_set(request);
   if (changed) changed(set);
-  write_set(set, scratch.folder());
-  const measurement::Dataset data = study::read_measurements(scratch / "dataset.yaml");
+  const measurement::Dataset data = read_back(set);
   measurement::Bench bench(data, 16);
   bench.estimate_sensors();
   std::vector<const dynamics::Effect*> catalogue;
@@ -75,10 +80,8 @@ TEST(LaboratoryVerdict, AnEffectIsFoundThoughFrictionScatters) {
 
 // All numbers together, from a fit of one friction to all tests, which is far from the truth: each test's friction and the law's numbers come out.
 TEST(LaboratoryVerdict, TheFrictionOfEachTestIsFittedBesideALaw) {
-  const Scratch scratch("own_friction");
   const MadeSet set = make_set(request({"static_friction"}, "friction_scatter", 6, 12005, 8));
-  write_set(set, scratch.folder());
-  const measurement::Dataset data = study::read_measurements(scratch / "dataset.yaml");
+  const measurement::Dataset data = read_back(set);
   const measurement::Bench bench(data, 16);
   const auto model = measurement::with_effect(free_friction(), *effects::find("static_friction"), bench.reach());
   const measurement::ModelFit far{.model = model, .x = {0.22, 1.5}};
@@ -110,9 +113,7 @@ TEST(LaboratoryVerdict, TheFrictionOfEachTestIsFittedBesideALaw) {
 // A drag that grows with the square of the speed, beside friction that scatters by 6 %: one in proportion to the speed is near enough with such
 // frictions, and was named, with another effect.
 TEST(LaboratoryVerdict, ALawOfNoCatalogueIsFoundThoughFrictionScatters) {
-  const Scratch scratch("law_beside_friction");
-  write_set(make_set(request({"quadratic_drag"}, "friction_scatter", 7, 13201, 8)), scratch.folder());
-  const measurement::Dataset data = study::read_measurements(scratch / "dataset.yaml");
+  const measurement::Dataset data = read_back(make_set(request({"quadratic_drag"}, "friction_scatter", 7, 13201, 8)));
   measurement::Bench bench(data, 16);
   bench.estimate_sensors();
   Diagnosis d = measurement::diagnose(bench, free_friction(), {effects::find("viscous_drag")}, {}, run_here);
@@ -227,9 +228,7 @@ TEST(LaboratoryVerdict, AHistoryThatAHairOfFrictionTurnsNamesNoEffect) {
 // Replays of the floor's noise turn this model's rocking elsewhere, one of them as no other. What chance gains on data from it is no more than
 // what these miss it by. (It seemed to be twice that, with all effects forty times, and a tilt that took all tests to the noise no better than chance.)
 TEST(LaboratoryVerdict, ChanceGainsNoMoreThanItsDataMiss) {
-  const Scratch scratch("laboratory");
-  write_set(make_set(request({"floor_tilt"}, "", 6, 8801, 8)), scratch.folder());
-  const measurement::Dataset data = study::read_measurements(scratch / "dataset.yaml");
+  const measurement::Dataset data = read_back(make_set(request({"floor_tilt"}, "", 6, 8801, 8)));
   measurement::Bench bench(data, 32);
   bench.estimate_sensors();
   const measurement::ModelFit base{.model = free_friction(), .x = {0.504}};
