@@ -144,7 +144,7 @@ def _sentences(results):
                        f"Model {label}" if label.startswith("with ") else label, comparison.findings))
     kept = []
     for heading, sentences in groups:
-        fresh = [_capitalised(sentence) + ("" if sentence.endswith(".") else ".") for sentence in sentences if sentence not in said]
+        fresh = [_capitalised(sentence) + ("" if sentence.endswith((".", "?")) else ".") for sentence in sentences if sentence not in said]
         said.update(sentences)
         if fresh:
             kept.append((heading, [_named(results, sentence) for sentence in fresh]))

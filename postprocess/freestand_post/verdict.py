@@ -59,7 +59,7 @@ def best_in_words(diagnosis, name):
     if diagnosis.verdict != "none" and diagnosis.reason != "none_helps":
         return f"with {name}, on tests left out of the fit"
     if diagnosis.verdict == "none" and friction_scatters(diagnosis):
-        return f"closest effect, {name}: friction that differs from test to test explains it"
+        return f"best effect on tests left out, {name}: friction that differs from test to test explains it"
     if gains_beyond_chance(diagnosis):
         return f"best candidate, {name}: " + ("not needed" if diagnosis.verdict == "none" else "no better on tests left out")
     return f"best candidate, {name}: better by no more than chance"
@@ -83,7 +83,7 @@ def finding(diagnosis):
         return f"No candidate was fitted to the end; the base leaves {base} {diagnosis.unit}"
     if diagnosis.verdict == "none" and friction_scatters(diagnosis):
         return (f"A friction of its own in each test explains what the base misses: the base leaves {base} {diagnosis.unit} on tests left out, the "
-                f"effect that comes closest, {name}, {_error(best)}")
+                f"effect that is best there, {name}, {_error(best)}")
     if diagnosis.verdict == "none" and gains_beyond_chance(diagnosis):
         leaves = "more than noise explains, but no more than one reading strays by" if leaves_more_than_chance(diagnosis) else "no more than noise explains"
         return (f"No effect is needed: the base leaves {base} {diagnosis.unit}, {leaves}, the floor's noise allowed for; the best, {name}, "

@@ -59,7 +59,9 @@ void tell_diagnosis(const Json& json, const std::string& file) {
   fmt::print("{:<42} {:>11} {:>11} {:<9} {:>11}\n", "error (" + json["error_unit"].get<std::string>() + ")",
              "calibration", "left out", "", histories ? "floor noise" : "");
   if (histories) fmt::print("{:>88}\n", "allowed for");
-  tell_row(json["base"], "as it is");
+  const bool own_frictions =
+      json["friction_scatter"].is_object() && json["friction_scatter"]["beside"] == "the best effect, and allowed for";
+  tell_row(json["base"], own_frictions ? "as it is, with each test's friction" : "as it is");
   std::size_t seen = 0;
   for (const auto& c : json["candidates"])
     if (c["visible"].get<bool>() && seen++ < rows) tell_row(c, "with " + c["effect"].get<std::string>());

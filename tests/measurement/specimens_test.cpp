@@ -69,7 +69,7 @@ TEST(Specimens, OneTestOfAnotherFrictionIsTold) {
   data.tests.resize(5);
   const Bench bench(data, 0);
   EXPECT_THAT(test_of_other_friction(bench, {.of_tests = {1, 1.01, 1.5, 0.99, 1}}),
-              testing::HasSubstr("the friction of t3 is 1.5 times that of the others"));
+              testing::HasSubstr("the friction of t3 is 1.5 times that of the others, which differ by 0.82 %"));
   EXPECT_EQ(test_of_other_friction(bench, {.of_tests = {1, 1, 1, 1, 1}}), "");
   EXPECT_EQ(test_of_other_friction(bench, {.of_tests = {0.9, 1.01, 1.15, 0.97, 1.04}}), "");
   expect_told_by_chance(2000, bench, 6, test_of_other_friction);

@@ -3,9 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <numeric>
+
 #include "base/random.hpp"
 #include "measurement/examined.hpp"
 #include "measurement/laboratory/plausible.hpp"
+#include "measurement/laboratory/units.hpp"
 
 namespace freestand::measurement::timing_test {
 namespace {
@@ -194,6 +197,31 @@ TEST(Quality, WhatDiffersInEachTestIsNoUnit) {
   EXPECT_FALSE(told({1.6, 1.7, 1.9, 2.54, 1.35}));
   EXPECT_TRUE(told({1, 1, 1, 2.54, 1}));
   EXPECT_TRUE(told({2.54, 2.54, 2.54, 2.54, 2.54}));
+}
+
+// Slips 2.54 times the model's were taken for inches read as centimetres, where a little less friction makes them as well.
+TEST(Quality, AFrictionOfItsOwnIsNoUnit) {
+  const auto made = [](double friction) {
+    return test::made_dataset(sliding_cabinet(0.35), 1, {1, friction, 1, 1, 1});
+  };
+  const ModelFit fit{.model = test::free_friction(), .x = {0.35}};
+  const auto times_the_model = [&](const Dataset& data) {
+    const Values given = predict(fit.model, data.tests[1], fit.x).slip_m, &seen = data.tests[1].slip_m;
+    return std::inner_product(seen.begin(), seen.end(), given.begin(), 0.0) /
+           std::inner_product(given.begin(), given.end(), given.begin(), 0.0);
+  };
+  double less = 0.5, more = 1;
+  while (more - less > 1e-6) {
+    const double middle = 0.5 * (less + more);
+    (times_the_model(made(middle)) > 2.54 ? less : more) = middle;
+  }
+  const Dataset slippery = made(less);
+  EXPECT_NEAR(times_the_model(slippery), 2.54, 0.02);
+  const std::vector<bool> told(slippery.tests.size(), false);
+  EXPECT_THAT(other_units(Bench(slippery, 0), fit, told), IsEmpty());
+  Dataset inches = made(1);
+  for (double& s : inches.tests[1].slip_m) s *= 2.54;
+  EXPECT_EQ(other_units(Bench(inches, 0), fit, told).size(), 1U);
 }
 
 // One test in centimetres taken for metres, or in tenths: its own, not a friction that differs.

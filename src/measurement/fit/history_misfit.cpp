@@ -133,9 +133,8 @@ void HistoryMisfit::allow(double tau, const Jobs& jobs) {
   }
   tau2_ = tau * tau;
   // About all numbers that were fitted: the more of them, the less tests disagree about each.
-  const Dispersion of_own = dispersion_of(of_numbers(), tau2_);
-  dispersion_ = place_.is_off.empty() ? of_own : dispersion_of(pulls_, tau2_);
-  friction_freedom_ = std::max(1.0, of_own.freedom / std::max(1.0, static_cast<double>(fit_.x.size())));
+  dispersion_ = dispersion_of(place_.is_off.empty() ? of_numbers() : pulls_, tau2_);
+  friction_freedom_ = std::max(1.0, freedom_of_friction_scatter(of_numbers(), tau2_));
 }
 
 double HistoryMisfit::likeliest_shift(std::size_t i, double against_friction) const {

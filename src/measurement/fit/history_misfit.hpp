@@ -18,7 +18,7 @@ class HistoryMisfit {
   HistoryMisfit& operator=(const HistoryMisfit&) = delete;
 
   double friction_scatter() const { return scatter_; }
-  double friction_freedom() const { return friction_freedom_; }  // n - 1 of n tests that tell of it
+  double friction_freedom() const { return friction_freedom_; }  // of how far it is known by how much friction scatters
   const Dispersion& dispersion() const { return dispersion_; }
   // By derivatives, in the cube in which fits move: half the second derivatives of G, and the step from the fit to where it is least.
   const Eigen::MatrixXd& rates() const { return rates_; }

@@ -11,9 +11,6 @@
 namespace freestand::measurement {
 namespace {
 
-const Free friction_of_one_test = {
-    .name = "factor", .lower = 0.5, .upper = 2, .low = 0.8, .high = 1.25, .logarithmic = true};
-
 bool at_its_end(const Free& free, double value) {
   constexpr double near = 1e-3;
   return to_unit(free, value) - to_unit(free, free.lower) < near ||

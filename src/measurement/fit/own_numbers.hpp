@@ -8,6 +8,10 @@
 
 namespace freestand::measurement {
 
+// Of a factor on the friction of one test: where it is sought, and, with more near one, where first.
+inline const Free friction_of_one_test = {
+    .name = "factor", .lower = 0.5, .upper = 2, .low = 0.8, .high = 1.25, .logarithmic = true};
+
 struct OwnNumbers {
   std::vector<double> of_tests;  // of each calibration test
   double scatter = 0;            // standard deviation: of the factors' logarithms, of the times

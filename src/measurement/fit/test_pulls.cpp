@@ -174,6 +174,22 @@ double friction_scatter(const std::vector<Pull>& pulls) {
   return gsl_cdf_chisq_Q(std::max(without - value, 0.0), 1) / 2 < 0.05 ? best : 0;
 }
 
+double freedom_of_friction_scatter(const std::vector<Pull>& pulls, double tau2) {
+  const Pull sum = sum_of(pulls, tau2);
+  const Index p = sum.gram.rows(), n = static_cast<Index>(pulls.size());
+  MatrixXd numbers(p, n);  // of each test, what its friction shares with them
+  VectorXd precision(n);   // of what the test says of its friction, scatter allowed for
+  for (Index i = 0; i < n; ++i) {
+    const MatrixXd& gram = pulls[static_cast<std::size_t>(i)].gram;
+    const double allowed = 1 + tau2 * gram(p, p);
+    numbers.col(i) = gram.col(p).head(p) / allowed;
+    precision[i] = gram(p, p) / allowed;
+  }
+  MatrixXd said = precision.asDiagonal();
+  if (p > 0) said -= numbers.transpose() * sum.gram.completeOrthogonalDecomposition().solve(numbers);
+  return tau2 * tau2 * said.squaredNorm();
+}
+
 Dispersion dispersion_of(const std::vector<Pull>& pulls, double tau2) {
   const Pull sum = sum_of(pulls, tau2);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solved(sum.gram);

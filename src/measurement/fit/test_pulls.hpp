@@ -55,6 +55,10 @@ Pull sum_of(const std::vector<Pull>&, double tau2);
 
 // Standard deviation tau of ln mu from test to test, where the tests show one; else 0.
 double friction_scatter(const std::vector<Pull>&);
+// Degrees of freedom of tau2 beside it: twice its information in the restricted likelihood, tau2^2 tr(P F P F), F the sum of the tests'
+// f f^T of their frictions' derivatives, P the inverse of their covariance less what the numbers take. n - 1 of n tests that all tell well
+// of their friction, n where it is no number of the fit; one that stands still adds none, whatever it tells of other numbers.
+double freedom_of_friction_scatter(const std::vector<Pull>&, double tau2);
 
 // s, and nu.
 struct Dispersion {

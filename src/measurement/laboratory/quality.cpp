@@ -91,6 +91,7 @@ void look_at_channels(const Bench& bench, Quality& quality) {
         "slips");
   for (int c = 0; c < channel_count; ++c) look_at_channel(bench, static_cast<Channel>(c), quality);
   std::vector<std::string> still;
+  double reach = 0;  // of those, in noise units
   bool slips = false, turns = false;
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const Test& test = bench.test(i);
@@ -101,12 +102,15 @@ void look_at_channels(const Bench& bench, Quality& quality) {
     if ((!slip && has(bench, Channel::slip)) || (!turn && has(bench, Channel::rotation))) continue;
     still.push_back(test.id);
     slips |= slip, turns |= turn;
+    if (slip) reach = std::max(reach, greatest(test.slip_m) / bench.noise(Channel::slip));
+    if (turn) reach = std::max(reach, greatest(test.rotation_rad) / bench.noise(Channel::rotation));
   }
   if (still.empty()) return;
   const char* what = slips && turns ? "friction and slenderness" : slips ? "friction" : "slenderness";
-  quality.findings.push_back(
-      together(still, "shows no motion above the noise: it bounds", "show no motion above the noise: they bound") +
-      fmt::format(" {} from below, and {} nothing else", what, still.size() > 1 ? "say" : "says"));
+  quality.findings.push_back(together(still, "hardly moves", "hardly move") +
+                             fmt::format(" (within {:.0f} noise units): {} {} from below, and {} little else",
+                                         std::ceil(reach), still.size() > 1 ? "they bound" : "it bounds", what,
+                                         still.size() > 1 ? "say" : "says"));
 }
 
 // A sensor that is not as stated, with its numbers.

@@ -155,8 +155,8 @@ class Decision : CandidateComparison {
                       ahead.empty() ? "" : "; every other effect misses these tests by more" + ahead));
     else if (within_tolerances(best)) {
       say(fmt::format(
-          "{} explains the tests where what is stated is off within its tolerances, and no other effect of those "
-          "fitted to the end does, beyond chance",
+          "{} explains the tests where what is stated is off within its tolerances, and no other effect that "
+          "was tried on tests left out does, beyond chance",
           joined(best.effects)));
     } else {
       const bool scatters = d_.friction_scatter > 0, falls = pooled_left_out(best) < pooled_left_out(d_.base);
@@ -165,11 +165,11 @@ class Decision : CandidateComparison {
       const auto left = [&](const Candidate& c) {
         return three_digits(scatters && !falls ? left_out(c) : pooled_left_out(c));
       };
-      say(
-          fmt::format("with {} the left-out error falls from {} to {}{}; every other effect of those fitted to the end "
-                      "misses the tests left out by more{}, beyond chance{}",
-                      joined(best.effects), left(d_.base), left(best), told_by_few(best) + allowed,
-                      allowed.empty() ? "" : " with that allowed for", ahead + what_remains(best)));
+      say(fmt::format(
+          "with {} the left-out error falls from {} to {}{}; every other effect that was tried on tests left "
+          "out misses them by more{}, beyond chance{}",
+          joined(best.effects), left(d_.base), left(best), told_by_few(best) + allowed,
+          allowed.empty() ? "" : " with that allowed for", ahead + what_remains(best)));
     }
   }
 

@@ -76,10 +76,12 @@ class Diagnoser : PairSearch {
     tell_unread_floors();
     tell_scatter_of_friction();
     tell_deviations();
-    if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_))
-      for (std::string& whose : std::vector{friction_of_specimens(bench_, *out_.own_friction),
-                                            test_of_other_friction(bench_, *out_.own_friction)})
-        if (!whose.empty()) out_.sentences.push_back(std::move(whose));
+    if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_)) {
+      if (std::string whose = friction_of_specimens(bench_, *out_.own_friction); !whose.empty())
+        out_.sentences.push_back(std::move(whose));
+      if (std::string whose = test_of_other_friction(bench_, *out_.own_friction); !whose.empty())
+        out_.sentences.insert(out_.sentences.begin(), std::move(whose));
+    }
     if (kind_of_set(bench_) == Kind::history)
       if (std::string met =
               meets_all_tests(out_, [&](const Candidate& c) { return chance_of_misfit_of(c.fit).chance(); });

@@ -89,12 +89,14 @@ std::string test_of_other_friction(const Bench& bench, const OwnNumbers& frictio
   const double left = std::pow(n - 1, 2) - n * g2;
   const double p = left > 0 ? std::min(1.0, 2 * n * gsl_cdf_tdist_Q(std::sqrt(n * (n - 2) * g2 / left), n - 2)) : 0;
   if (!(squares > 0) || p > chance_level) return {};
+  const double squares_of_others = std::max(0.0, squares - std::pow(ln[furthest] - sum / n, 2) * n / (n - 1));
   const double others = (sum - ln[furthest]) / (n - 1);
   return fmt::format(
-      "the friction of {} is {:.2g} times that of the others, further off than chance puts one of {:g} (p {:.2g}): is "
-      "it of "
-      "another object, or on another floor?",
-      bench.test(tests[furthest]).id, std::exp(ln[furthest] - others), n, p);
+      "the friction of {} is {:.2g} times that of the others, which differ by {:.2g} %: further off than chance puts "
+      "one "
+      "of {:g} (p {:.2g}); is it of another object, or on another floor?",
+      bench.test(tests[furthest]).id, std::exp(ln[furthest] - others), 100 * std::sqrt(squares_of_others / (n - 2)), n,
+      p);
 }
 
 }  // namespace freestand::measurement
