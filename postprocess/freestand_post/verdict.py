@@ -24,7 +24,7 @@ def title(diagnosis, was=False):
     if diagnosis.verdict == "bad_data" and faults(diagnosis):
         return f"no effect is needed: {words.listing(faults(diagnosis), 'or')} is off"
     if diagnosis.verdict == "none":
-        return "friction differs from test to test; " * friction_scatters(diagnosis) + "these tests show no missing effect"
+        return _whose_friction(diagnosis) + "these tests show no missing effect"
     if diagnosis.proposal and diagnosis.reason == "one_law":
         return (f"one law of no catalogue, {validation.effect(diagnosis.proposal['effect'])}, does for {validation.effects(diagnosis.best['effect'].split('+'))}: "
                 f"it leaves {_error(diagnosis.proposal)} of {_error(diagnosis.base)}")
@@ -44,6 +44,13 @@ def friction_scatters(diagnosis):
     return diagnosis.raw.get("decided_by") == "friction_scatter"
 
 
+def _whose_friction(diagnosis):
+    if not friction_scatters(diagnosis):
+        return ""
+    odd = (diagnosis.raw.get("friction_scatter") or {}).get("odd_test")
+    return f"test {odd} has a friction of its own; " if odd else "friction differs from test to test; "
+
+
 def gains_beyond_chance(diagnosis):
     """Does the best effect gain more than it would where nothing is missing?"""
     return any(row["question"] == "does an effect help" and row["p"] <= row["level"] for row in diagnosis.chances)
@@ -60,6 +67,8 @@ def best_in_words(diagnosis, name):
         return f"with {name}, on tests left out of the fit"
     if diagnosis.verdict == "none" and friction_scatters(diagnosis):
         return f"best effect on tests left out, {name}: friction that differs from test to test explains it"
+    if diagnosis.raw.get("enough_if"):
+        return f"with {name}, on tests left out: within its tolerance"
     if gains_beyond_chance(diagnosis):
         return f"best candidate, {name}: " + ("not needed" if diagnosis.verdict == "none" else "no better on tests left out")
     return f"best candidate, {name}: better by no more than chance"
@@ -84,6 +93,8 @@ def finding(diagnosis):
     if diagnosis.verdict == "none" and friction_scatters(diagnosis):
         return (f"A friction of its own in each test explains what the base misses: the base leaves {base} {diagnosis.unit} on tests left out, the "
                 f"effect that is best there, {name}, {_error(best)}")
+    if diagnosis.raw.get("enough_if"):
+        return f"No effect is needed: if {diagnosis.raw['enough_if']}, within its tolerance, the model is enough that leaves {base} {diagnosis.unit} as it stands"
     if diagnosis.verdict == "none" and gains_beyond_chance(diagnosis):
         leaves = "more than noise explains, but no more than one reading strays by" if leaves_more_than_chance(diagnosis) else "no more than noise explains"
         return (f"No effect is needed: the base leaves {base} {diagnosis.unit}, {leaves}, the floor's noise allowed for; the best, {name}, "

@@ -24,7 +24,7 @@ Calibrated read_one(const YAML::Node& node, const std::string& name, int line, P
   const std::vector<double> range = section.numbers("calibrate");
   Calibrated c{.name = name, .lower = 0, .upper = 1, .value = section.optional_number("value"), .interval = {}};
   if (section.has("interval")) c.interval = section.numbers("interval");
-  for (const char* of_sweeps : {"posterior", "column"}) section.text(of_sweeps, "");
+  for (const char* of_sweeps : {"posterior", "column", "placed"}) section.text(of_sweeps, "");
   section.finish();
   if (range.size() == 2 && range[0] < range[1]) {
     c.lower = range[0];
@@ -137,6 +137,15 @@ void scatter_placements(YAML::Node block, double scatter) {
   }
 }
 
+// Where the joint draws hold the dimension itself beside its scatter, which was fitted.
+void draw_placements(YAML::Node block, const YAML::Node& scatter) {
+  const std::string column = scatter["placed"].Scalar();
+  YAML::Node drawn(YAML::NodeType::Map);
+  drawn["posterior"] = scatter["posterior"].Scalar();
+  drawn["column"] = column;
+  if (block && block.IsMap()) block[column.substr(column.find('.') + 1)] = drawn;
+}
+
 }  // namespace
 
 void sweep_model(YAML::Node root, Problems& problems, FittedAs fitted) {
@@ -144,6 +153,11 @@ void sweep_model(YAML::Node root, Problems& problems, FittedAs fitted) {
   YAML::Node model = root["model"];
   add_missing_parameters(model);
   YAML::Node scatter = model["placement_scatter"];
+  if (fitted == FittedAs::draws && scatter && scatter.IsMap() && scatter["placed"]) {
+    draw_placements(model["block"], scatter);
+    model.remove("placement_scatter");
+    scatter = YAML::Node();
+  }
   if (scatter && scatter.IsMap() && scatter["value"]) model["placement_scatter"] = scatter = scatter["value"];
   if (fitted == FittedAs::draws) leave_to_draws(model);
   for (const Calibrated& c : take_calibrated(model, problems))

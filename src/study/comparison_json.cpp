@@ -298,7 +298,7 @@ Compared compare(const parallel::Communicator& world, const ValidationRun& run, 
   json["error_tables"] = {{"calibration", tables_json(c.calibration)}, {"holdout", tables_json(c.holdout)}};
   json["ladder"] = ladder_json(p->validation.ladder);
   add_provenance(json, world, run);
-  std::string draws = posterior_text(fit.model, open, quality.spoilt());
+  std::string draws = posterior_text(fit.model, open, quality.spoilt(), known_middle(*p));
   return {std::move(json), fitted_study(*p, fit, open, folder), std::move(draws)};
 }
 

@@ -15,6 +15,7 @@
 #include "measurement/verdict/decide.hpp"
 #include "measurement/verdict/diagnose_outcomes.hpp"
 #include "measurement/verdict/law_search.hpp"
+#include "measurement/verdict/specimens.hpp"
 #include "study/law_forms.hpp"
 #include "study/read_parts.hpp"
 #include "study/spread_jobs.hpp"
@@ -329,10 +330,15 @@ Json diagnose(const parallel::Communicator& world, const ValidationRun& run, Run
                                                    {"factors", d.own_friction->of_tests},
                                                    {"chi_square_fit", number_or_null(d.own_friction->misfit)}}
                                             : Json(nullptr);
+  if (only_friction_scatters(d)) {
+    const auto odd = measurement::test_of_other_friction(bench, *d.own_friction);
+    json["friction_scatter"]["odd_test"] = odd ? Json(odd->id) : Json(nullptr);
+  }
   if (d.own_friction)
     json["friction_scatter"]["beside"] = d.friction_of_base ? Json(nullptr)
                                                             : Json(d.proposal ? "the proposed law, and allowed for"
                                                                               : "the best effect, and allowed for");
+  json["enough_if"] = d.enough_if.empty() ? Json(nullptr) : Json(d.enough_if);
   json["candidates"] = Json::array();
   for (const Candidate& c : d.candidates) json["candidates"].push_back(candidate_json(bench, c));
   json["recovered_force"] = recovered_json(bench, d,

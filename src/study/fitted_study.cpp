@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "measurement/predict/placements.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/paths.hpp"
 #include "study/posterior_tables.hpp"
@@ -53,6 +54,15 @@ void name_placement_scatter(YAML::Node root, const Prepared& p) {
   model["placement_scatter"] = calibrate_node(free.lower, free.upper);
 }
 
+std::optional<KnownMiddle> known_middle(const Prepared& p) {
+  if (scatter_number(p.model) < 0 || placement_number(p.model) >= 0) return {};
+  if (p.model.slenderness && p.model.size) return KnownMiddle{"slenderness_rad", p.model.slenderness->value};
+  if (p.model.width) return KnownMiddle{"width_m", p.model.width->value};
+  const Dimensions& d = p.data.specimen;
+  if (!d.width_m || std::ranges::any_of(p.data.tests, [&](const Test& t) { return t.specimen != d; })) return {};
+  return KnownMiddle{"width_m", *d.width_m};
+}
+
 void write_numbers(YAML::Node root, const ModelFit& fit, const std::string& table) {
   add_missing_parameters(root["model"]);  // of effects that are named alone
   write_fitted(root["model"], "", numbers_of(fit, table));
@@ -86,6 +96,8 @@ std::string fitted_study(const Prepared& p, const ModelFit& fit, const Posterior
   write_block(root, p);
   name_placement_scatter(root, p);
   write_numbers(root, fit, open.draws.empty() ? "" : posterior_table);
+  if (const auto middle = known_middle(p); middle && !open.draws.empty())
+    root["model"]["placement_scatter"]["placed"] = middle->column();
   root["model"].remove("discrepancy");
   if (open.slip_scatter_ln > 0) {
     YAML::Node slip;

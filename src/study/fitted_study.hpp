@@ -3,8 +3,10 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <optional>
 #include <string>
 
+#include "study/posterior_tables.hpp"
 #include "study/validation_parts.hpp"
 
 namespace freestand::study {
@@ -14,6 +16,10 @@ void write_block(YAML::Node root, const Prepared&);
 
 // The scatter from test to test that outcomes are judged with, where the study does not name it.
 void name_placement_scatter(YAML::Node root, const Prepared&);
+
+// The width, or the slenderness, of the one specimen of all tests, about which placements scatter while it is known itself: a sweep draws it
+// beside the scatter. None: it is calibrated, and drawn as that, or nothing scatters.
+std::optional<KnownMiddle> known_middle(const Prepared&);
 
 // Values and intervals into every {calibrate: ...} of the model, and the table of their joint draws where there is one.
 void write_numbers(YAML::Node root, const measurement::ModelFit&, const std::string& table = "");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <freestand/error.hpp>
 #include <fstream>
 #include <map>
@@ -9,6 +10,7 @@
 
 #include "base/csv_table.hpp"
 #include "base/shown_text.hpp"
+#include "measurement/predict/placements.hpp"
 #include "study/section.hpp"
 
 namespace freestand::study {
@@ -115,7 +117,7 @@ std::vector<std::string> read_posterior_tables(YAML::Node root, const std::files
 }
 
 std::string posterior_text(const measurement::ModelSpec& model, const measurement::Posterior& posterior,
-                           bool measurements_look_wrong) {
+                           bool measurements_look_wrong, const std::optional<KnownMiddle>& middle) {
   if (posterior.draws.empty()) return "";
   std::string text =
       fmt::format("# Joint draws of the numbers that the calibration tests leave open{}.\n",
@@ -126,9 +128,13 @@ std::string posterior_text(const measurement::ModelSpec& model, const measuremen
   if (posterior.leaves_too_much) text += fmt::format("{}\n", lacks.line);
   if (measurements_look_wrong) text += fmt::format("{}\n", wrong.line);
   for (std::size_t k = 0; k < model.free.size(); ++k) text += (k ? "," : "") + model.free[k].name;
-  for (const measurement::Values& row : posterior.draws) {
+  if (middle) text += "," + middle->column();
+  for (std::size_t s = 0; s < posterior.draws.size(); ++s) {
+    const measurement::Values& row = posterior.draws[s];
     text += "\n";
     for (std::size_t k = 0; k < row.size(); ++k) text += fmt::format("{}{}", k ? "," : "", row[k]);
+    if (middle)
+      text += fmt::format(",{}", measurement::placed_at(model, std::log(middle->value) + posterior.placements[s]));
   }
   return text + "\n";
 }

@@ -5,6 +5,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,8 +25,15 @@ inline std::vector<std::filesystem::path> files_of_study(const std::filesystem::
 // for each table.
 std::vector<std::string> read_posterior_tables(YAML::Node root, const std::filesystem::path& folder, Problems&);
 
-// The text of a table. Empty where there are no draws.
+// A dimension of the block that is no number of the fit, and about which its placements scatter.
+struct KnownMiddle {
+  std::string key;  // width_m or slenderness_rad
+  double value = 0;
+  std::string column() const { return "block." + key; }
+};
+
+// The text of a table. Empty where there are no draws. middle: has a column of its own, as another placement has it.
 std::string posterior_text(const measurement::ModelSpec&, const measurement::Posterior&,
-                           bool measurements_look_wrong = false);
+                           bool measurements_look_wrong = false, const std::optional<KnownMiddle>& middle = {});
 
 }  // namespace freestand::study

@@ -35,6 +35,8 @@
 //   format "freestand-diagnosis/2", study, measurements, fingerprint (of all that it follows from), error_unit, verdict, effects, sentences, findings
 //   decided_by: the key by which the verdict was reached: tests_of_chance, friction_scatter, findings; where no chance was
 //     computed chi_square_left_out (histories) or score_left_out_above_best (peaks) of the candidates
+//   enough_if: of none, with what stated otherwise, within its tolerance, the model is enough; null: as it stands
+//   friction_scatter.odd_test: where friction differs from test to test, the one test that alone does; or null
 //   reason: of bad_data: "data" (they look wrong in a sign, a clock or a unit, or a dimension or a gain is not as stated);
 //     of the verdict unknown: "none_helps" (no effect lowers
 //     the error by more than chance), "none_suffices" (one does, and more is left than noise makes), "one_law" (several

@@ -1,9 +1,12 @@
 """A study that was fitted, taken again by every command: its intervals stay with their numbers, what the tests leave open is drawn, effects that
 are named alone are written with their numbers, and what belonged to another model is gone."""
 
+import csv
+import math
+import statistics
 import unittest
 
-from support import InFolder, numbers, walkthrough
+from support import InFolder, h5py, numbers, walkthrough
 
 STRENGTHS = (0.28, 0.3, 0.32, 0.34, 0.36, 0.38, 0.4, 0.42, 0.44, 0.47, 0.5, 0.55)
 FALLEN = (0.34, 0.38, 0.42, 0.44, 0.47, 0.5, 0.55)
@@ -41,6 +44,24 @@ class FittedAgain(InFolder):
             self.assertAlmostEqual(found["again"][role]["error"], found["first"][role]["error"], delta=0.03)
         for best in ([], ["--best"]):  # steep placements stay below pi/2
             self.succeed(["run", self.folder / "again" / "fitted.yaml", "-o", self.folder / f"swept{len(best)}", "--quiet", *best])
+
+    def test_placements_of_a_known_width_are_drawn_with_their_scatter(self):
+        study = outcomes(self.folder / "o", "  placement_scatter: {calibrate: [0.01, 0.5]}\n  friction: {mu: 0.9}\n"
+                         "  block: {width_m: 0.4, height_m: 1.5}\n  model: rock\n")
+        self.succeed(["compare", study, "-o", self.folder / "first", "--quiet"])
+        with (self.folder / "first" / "fitted_draws.csv").open(encoding="utf-8") as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        spread = statistics.pstdev(math.log(float(row["block.width_m"]) / 0.4) for row in rows)
+        scatter = math.sqrt(statistics.fmean(float(row["placement_scatter"])**2 for row in rows))
+        self.assertAlmostEqual(spread, scatter, delta=4 * scatter / math.sqrt(len(rows)))
+        widths = {}
+        for best in ([], ["--best"]):
+            self.succeed(["run", self.folder / "first" / "fitted.yaml", "-o", self.folder / f"swept{len(best)}", "--quiet", *best])
+            with h5py.File(self.folder / f"swept{len(best)}" / "samples.h5") as file:
+                widths[len(best)] = set(file["samples/block_width_m"][:])
+        drawn = {float(row["block.width_m"]) for row in rows}
+        self.assertLessEqual(widths[0], drawn)
+        self.assertFalse(widths[1] & drawn)
 
     def test_an_effect_named_alone_is_written_with_its_numbers(self):
         study = walkthrough(self.folder / "w", ("t01", "t02", "t05", "t07"), 2.2)

@@ -104,6 +104,17 @@ class ThePage(Temporary):
         self.assertIn("Rate weakening and viscous drag together would be enough, with more numbers than one law takes", page.text)
         self.assertNotIn("No effect of the catalogue is enough", page.text)
 
+    def test_what_lies_within_its_tolerance_and_whose_friction_differs(self):
+        for name, keys, needles in (
+                ("within", {"enough_if": "the width is 0.06 % larger than stated"},
+                 ("No effect is needed: if the width is 0.06 % larger than stated, within its tolerance", "these tests show no missing effect")),
+                ("odd", {"decided_by": "friction_scatter", "friction_scatter": {"standard_deviation_ln": 0.12, "factors": [1], "odd_test": "t02"}},
+                 ("test t02 has a friction of its own; these tests show no missing effect",))):
+            with self.subTest(name):
+                page, _ = self.page(make.diagnosis(self.folder / name, "none", **keys))
+                for needle in needles:
+                    self.assertIn(needle, page.text)
+
     def test_a_gain_beyond_chance_that_is_not_needed(self):
         """What stands over the candidates says no more of chance than the table of chances does."""
         helps = {"question": "does an effect help", "about": "12 effects", "p": 0.0005, "level": 0.05, "observed": 40, "chance_reaches": 5,

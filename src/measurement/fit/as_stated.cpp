@@ -135,6 +135,11 @@ std::string most_off(const AsStated& s) {
   return most;
 }
 
+bool within_tolerances(const AsStated& s) {
+  return s.names.empty() ||
+         gsl_cdf_chisq_Q(deviations(s).squaredNorm(), static_cast<double>(s.names.size())) > chance_level;
+}
+
 std::pair<ModelSpec, Values> moved_alike(const AsStated& s, const ModelFit& fit, const ModelSpec& other, Values x) {
   ModelSpec model = other;
   const std::size_t own = fit.x.size();

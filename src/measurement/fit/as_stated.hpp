@@ -34,6 +34,9 @@ AsStated as_stated(const Bench&, const Judge&, const ModelFit&, const Jobs&,
 // "the width is 1.2 % smaller than stated": what is off by the most standard deviations, of what is off by more than chance; empty: nothing is.
 std::string most_off(const AsStated&);
 
+// Do all deviations together lie within what the tolerances make by chance?
+bool within_tolerances(const AsStated&);
+
 // A model that holds the fit's numbers first, and its numbers, moved as far as those of the fit were, with what is stated as it is here.
 std::pair<ModelSpec, Values> moved_alike(const AsStated&, const ModelFit& fit, const ModelSpec& other, Values x);
 

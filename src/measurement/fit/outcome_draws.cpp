@@ -72,7 +72,8 @@ OutcomeDraws::Cells OutcomeDraws::all_cells() const {
   if (scatter_number_ >= 0) {
     const Free& free = table_.model.free[static_cast<std::size_t>(scatter_number_)];
     cells.scatters = scatter_cells;
-    spread(std::log(std::max(free.lower, 1e-4)), std::log(free.upper), scatter_cells, cells.scatter, cells.scatter_step);
+    const double widest = middle_number_ < 0 ? std::min(widest_scatter(table_.places), free.upper) : free.upper;
+    spread(std::log(std::max(free.lower, 1e-4)), std::log(widest), scatter_cells, cells.scatter, cells.scatter_step);
   }
   return cells;
 }

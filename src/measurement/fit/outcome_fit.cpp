@@ -95,7 +95,8 @@ Places fine_places(const OutcomeTable& table, const Values& x, const std::vector
 // All from the table: the fit, its folds, its draws. One job.
 class Reading {
  public:
-  Reading(const Bench& bench, const OutcomeTable& table, std::size_t draws)
+  // wide: the same points, at places by which draws are told.
+  Reading(const Bench& bench, const OutcomeTable& table, const OutcomeTable& wide, std::size_t draws)
       : bench_(bench), table_(table), search_(bench, table), fold_(fold_of(table.tests.size())) {
     all_ = search_.best();
     add(all_);
@@ -109,7 +110,7 @@ class Reading {
       for (std::size_t t = 0; t < fold_.size(); ++t)
         if (fold_[t] == f) answer_.push_back(probability[t]);
     }
-    for (const Values& x : OutcomeDraws(bench, table, all_).draw(draws))
+    for (const Values& x : OutcomeDraws(bench, wide, all_).draw(draws))
       answer_.insert(answer_.end(), x.begin(), x.end());
   }
   const Values& answer() const { return answer_; }
@@ -197,6 +198,30 @@ void place_again(const TableSearch& search, const TableFit& best, OutcomeTable& 
   for (TablePoint& point : table.points) point.outcomes.clear();
 }
 
+// Where the middle is known the places of a fit close in on its scatter, and beyond the last place nothing changes, so that all wider scatters
+// look alike there. Draws go by places that tell scatters (widest_scatter()) up to four times the widest that is open, first by what coarse
+// tables leave open, then by what is open there: wider ones nearly never made these outcomes. Of others the same tables.
+// open: of each number of each table, by the coarse tables.
+std::vector<OutcomeTable> at_wide_places(const Bench& bench, std::vector<OutcomeTable> tables,
+                                         const std::vector<std::vector<Interval>>& open, const Jobs& jobs) {
+  for (const bool first : {true, false}) {
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      OutcomeTable& table = tables[i];
+      const int scatter = scatter_number(table.model);
+      if (placement_number(table.model) >= 0 || scatter < 0) continue;
+      const TableSearch search(bench, table);
+      const TableFit best = search.best();
+      const auto number = static_cast<std::size_t>(scatter);
+      const double widest = first ? open[i][number].upper : search.within_chance(best)[number].upper;
+      const double middle = placement_middle(table.model, best.x), reach = 8 * widest;
+      table.places = places_between(middle - reach, middle + reach, place_step(widest));
+      for (TablePoint& point : table.points) point.outcomes.clear();
+    }
+    compute(bench, pointers(tables), "outcomes at wider places", jobs);
+  }
+  return tables;
+}
+
 // Each number at the ends of its range, where what is known beforehand often lies (an impact as Housner's, no tilt): no point within comes so
 // near. They join where they are better by a round's gain.
 void look_at_ends(const Bench& bench, std::vector<OutcomeTable>& tables, const Jobs& jobs) {
@@ -224,11 +249,12 @@ std::vector<TabulatedFit> close_in(const Bench& bench, const std::vector<Outcome
                                    const ModelFit* without, const OutcomeEffort& effort, const Jobs& jobs) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   std::vector<OutcomeTable> fine;
+  std::vector<std::vector<Interval>> open_so_far;
   for (const OutcomeTable* table : coarse) {
     const TableSearch search(bench, *table);
     const TableFit best = search.best();
     const auto numbers = other_numbers(table->model);
-    const std::vector<Interval> open = search.within_chance(best);
+    const std::vector<Interval>& open = open_so_far.emplace_back(search.within_chance(best));
     fine.push_back({table->model, table->without, tests, fine_places(*table, best.x, open)});
     if (without) add_plain_points(fine.back(), *without);
     if (!table->points[best.point].plain) fine.back().points.push_back({best.x});
@@ -267,8 +293,9 @@ std::vector<TabulatedFit> close_in(const Bench& bench, const std::vector<Outcome
     place_again(search, search.best(), table);
   }
   compute(bench, pointers(fine), "outcomes at finer places", jobs);
+  std::vector<OutcomeTable> wide = at_wide_places(bench, fine, open_so_far, jobs);
   const auto answers = jobs("folds and draws", fine.size(),
-                            [&](std::size_t i) { return Reading(bench, fine[i], effort.draws).answer(); });
+                            [&](std::size_t i) { return Reading(bench, fine[i], wide[i], effort.draws).answer(); });
   std::vector<TabulatedFit> fits;
   for (std::size_t i = 0; i < fine.size(); ++i) {
     ModelFit fit = unpacked(bench, fine[i], answers[i]);

@@ -18,9 +18,10 @@ constexpr int polish_budget = 40;
 // Of the span of the places: room that a middle leaves to either side, and the widest scatter.
 constexpr double margin = 0.25;
 
+double span(const Places& places) { return places.step * (places.count - 1); }
+
 // Below that the places are too far apart to tell.
 double least_scatter(const Places& places) { return 1.25 * places.step; }
-double span(const Places& places) { return places.step * (places.count - 1); }
 
 // Words of 64 bits travel as halves, which a double holds exactly.
 void append_word(Values& values, std::uint64_t word) {
@@ -44,7 +45,7 @@ std::vector<double> scatters_of(const OutcomeTable& table, const Values& x) {
   const int number = scatter_number(table.model);
   if (number < 0) return {placement_scatter(table.model, x)};
   const Free& free = table.model.free[static_cast<std::size_t>(number)];
-  const double high = std::clamp(margin * span(table.places), free.lower, free.upper);
+  const double high = std::clamp(widest_scatter(table.places), free.lower, free.upper);
   std::vector<double> logs =
       between(std::log(std::clamp(least_scatter(table.places), free.lower, high)), std::log(high), scatter_step);
   for (double& value : logs) value = std::exp(value);
@@ -75,6 +76,8 @@ std::vector<Values> plain_points(const ModelFit& without) {
 }
 
 }  // namespace
+
+double widest_scatter(const Places& places) { return margin * span(places); }
 
 void add_points(OutcomeTable& table, const std::vector<Free>& box, const std::vector<std::size_t>& numbers,
                 const Values& x, std::size_t count) {

@@ -45,6 +45,9 @@ void add_points(OutcomeTable&, const std::vector<Free>& box, const std::vector<s
 // far apart.
 bool is_slow(const OutcomeTable&);
 
+// That such places tell from a narrower one: of wider ones too many placements lie beyond the last place.
+double widest_scatter(const Places&);
+
 // Fills what is not yet computed, in jobs of one point and a part of the tests.
 void compute(const Bench&, const std::vector<OutcomeTable*>&, const std::string& what, const Jobs&);
 

@@ -32,7 +32,8 @@ void leave_the_mean(const ModelFit& fit, Posterior& out) {
   for (std::size_t s = 0; s < out.draws.size(); ++s) {
     Values& x = out.draws[s];
     const double friction = std::exp(out.friction_scatter * student(random::standard_normal(39, s, 0)));
-    const double aside = placement_scatter(fit.model, x) * random::standard_normal(39, s, 1);
+    const double aside =
+        out.placements.emplace_back(placement_scatter(fit.model, x) * random::standard_normal(39, s, 1));
     for (std::size_t k = 0; k < x.size(); ++k) {
       const Free& free = fit.model.free[k];
       if (is_friction(free)) x[k] = std::clamp(x[k] * friction, free.lower, free.upper);

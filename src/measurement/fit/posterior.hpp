@@ -46,6 +46,7 @@ struct Posterior {
   std::vector<Values>
       draws;  // as ModelFit::x, by the first number; friction and placement of another test. Empty: none
   std::vector<Values> of_mean;  // the same rows with the mean friction, or the middle of the placements
+  Values placements = {};       // of each of the draws ln of another placement's width, or slenderness, over the middle
   // Histories: the model in which what the laboratory states is free behind the numbers of the fit, and what it is in each of the draws.
   ModelSpec in_laboratory = {};
   std::vector<Values> stated = {};

@@ -1,6 +1,7 @@
 #include "measurement/fit/stated_numbers.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -57,6 +58,11 @@ void let_free(ModelSpec& model, const StatedNumber& stated) {
                         .upper = value + reach,
                         .low = value - reach,
                         .high = value + reach});
+}
+
+bool within_tolerance(const Free& free, double number) {
+  const double deviations = (to_unit(free, number) - stated_in_cube) / deviation_in_cube;
+  return 2 * gsl_cdf_ugaussian_Q(std::abs(deviations)) > chance_level;
 }
 
 }  // namespace freestand::measurement

@@ -32,6 +32,9 @@ std::vector<StatedNumber> stated_numbers(const Tolerance&, const ModelSpec&);
 // Makes it the last free number of the model, within three standard deviations to both sides of what is stated.
 void let_free(ModelSpec&, const StatedNumber&);
 
+// Does a number that let_free() made lie within what the tolerance makes by chance?
+bool within_tolerance(const Free&, double number);
+
 // One standard deviation in the cube in which fits move (to_unit), and where in it what is stated lies.
 inline constexpr double deviation_in_cube = 1 / (2 * fault_deviations), stated_in_cube = 0.5;
 

@@ -1,6 +1,7 @@
 #include "measurement/laboratory/quality.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +53,15 @@ bool tells(const Bench& bench, const Test& test, Channel channel) {
          std::any_of(samples.begin(), samples.end(), [&](double s) { return s != samples[0]; });
 }
 
+// Does a reading lie further off than the furthest of so many by noise and drift alone, but for one test in twenty?
+bool above_the_noise(const Bench& bench, const Test& test, Channel channel) {
+  const auto& samples = history(test, channel);
+  const auto n = static_cast<double>(samples.size());
+  const Sensor& sensor = bench.sensor(channel);
+  const double scatter = std::hypot(std::max(sensor.size(), 1.0), sensor.drift_per_s * n * test.dt_s);
+  return greatest(samples) > gsl_cdf_ugaussian_Qinv(chance_level / (2 * n)) * scatter * bench.noise(channel);
+}
+
 void look_at_channel(const Bench& bench, Channel channel, Quality& quality) {
   std::vector<std::string> lack, dead, cut, unknown;
   for (std::size_t i = 0; i < bench.size(); ++i) {
@@ -91,26 +101,24 @@ void look_at_channels(const Bench& bench, Quality& quality) {
         "slips");
   for (int c = 0; c < channel_count; ++c) look_at_channel(bench, static_cast<Channel>(c), quality);
   std::vector<std::string> still;
-  double reach = 0;  // of those, in noise units
   bool slips = false, turns = false;
   for (std::size_t i = 0; i < bench.size(); ++i) {
     const Test& test = bench.test(i);
     if (!test.has_history()) continue;
     quality.moving += moves(bench, i);
     const bool slip = tells(bench, test, Channel::slip), turn = tells(bench, test, Channel::rotation);
-    if (moves(bench, i) || !(slip || turn)) continue;
+    if (!(slip || turn)) continue;
+    if (slip && above_the_noise(bench, test, Channel::slip)) continue;
+    if (turn && above_the_noise(bench, test, Channel::rotation)) continue;
     if ((!slip && has(bench, Channel::slip)) || (!turn && has(bench, Channel::rotation))) continue;
     still.push_back(test.id);
     slips |= slip, turns |= turn;
-    if (slip) reach = std::max(reach, greatest(test.slip_m) / bench.noise(Channel::slip));
-    if (turn) reach = std::max(reach, greatest(test.rotation_rad) / bench.noise(Channel::rotation));
   }
   if (still.empty()) return;
   const char* what = slips && turns ? "friction and slenderness" : slips ? "friction" : "slenderness";
-  quality.findings.push_back(together(still, "hardly moves", "hardly move") +
-                             fmt::format(" (within {:.0f} noise units): {} {} from below, and {} little else",
-                                         std::ceil(reach), still.size() > 1 ? "they bound" : "it bounds", what,
-                                         still.size() > 1 ? "say" : "says"));
+  quality.findings.push_back(
+      together(still, "shows no motion above the noise: it bounds", "show no motion above the noise: they bound") +
+      fmt::format(" {} from below, and {} nothing else", what, still.size() > 1 ? "say" : "says"));
 }
 
 // A sensor that is not as stated, with its numbers.

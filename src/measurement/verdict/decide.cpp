@@ -11,6 +11,7 @@
 #include "measurement/verdict/answers.hpp"
 #include "measurement/verdict/chance_of_peaks.hpp"
 #include "measurement/verdict/comparison.hpp"
+#include "measurement/verdict/specimens.hpp"
 
 namespace freestand::measurement {
 namespace {
@@ -139,6 +140,10 @@ class Decision : CandidateComparison {
           d_.effects.push_back(effect);
     }
     const Candidate& best = *rivals.front();
+    const auto within = std::ranges::find_if(rivals, [](const Candidate* c) {
+      return c->laboratory && within_tolerance(c->fit.model.free.back(), c->fit.x.back());
+    });
+    if (d_.effects.empty() && within != rivals.end()) return needs_no_effect(**within);
     d_.verdict = d_.effects.empty() ? Verdict::bad_data : rivals.size() > 1 ? Verdict::ambiguous : Verdict::missing;
     for (const Candidate* rival : rivals)
       if (rival->laboratory)
@@ -173,19 +178,29 @@ class Decision : CandidateComparison {
     }
   }
 
+  // What is stated is known to its tolerance alone: a deviation within that is no fault.
+  void needs_no_effect(const Candidate& c) {
+    d_.verdict = Verdict::none;
+    d_.enough_if = fault_sentence(c.effects[0], c.fit.x.back());
+    say(fmt::format("no effect is needed: if {}, within its tolerance, the left-out error falls from {} to {}",
+                    d_.enough_if, three_digits(pooled_left_out(d_.base)), three_digits(pooled_left_out(c))));
+  }
+
   void friction_scatters() {
     const Candidate* best = nullptr;
     for (const Candidate& c : d_.candidates)
       if (c.visible && !c.laboratory && (!best || c.misfit_of_fit < best->misfit_of_fit)) best = &c;
     const OwnNumbers& own = *d_.own_friction;
     d_.verdict = Verdict::none;
-    say(fmt::format(
-        "friction differs from test to test by {:.2g} % (standard deviation): with a friction of its own in each "
-        "test the model leaves {:.2f} where noise explains 1{}",
-        100 * own.scatter, std::sqrt(own.misfit / samples()),
-        best ? fmt::format(", and the effect that comes closest, {}, leaves {:.2f}", joined(best->effects),
-                           std::sqrt(best->misfit_of_fit / samples()))
-             : ""));
+    const auto odd = test_of_other_friction(bench_, own);
+    if (odd) say(told(*odd));
+    const std::string differs =
+        fmt::format("friction differs from test to test by {:.2g} % (standard deviation): ", 100 * own.scatter);
+    say(fmt::format("{}with a friction of its own in each test the model leaves {:.2f} where noise explains 1{}",
+                    odd ? "" : differs, std::sqrt(own.misfit / samples()),
+                    best ? fmt::format(", and the effect that comes closest, {}, leaves {:.2f}", joined(best->effects),
+                                       std::sqrt(best->misfit_of_fit / samples()))
+                         : ""));
   }
 
   // Of peaks: how far a model misses tests left out beside what another test of the set tells of them.

@@ -64,24 +64,23 @@ class Diagnoser : PairSearch {
     judge();
     look_for_chance();
     if (friction_beside_) return {};
-    for (std::string& fault : std::vector{clocks_at_fault_.empty() ? stated_wrongly() : clocks_at_fault_,
+    const Stated stated = clocks_at_fault_.empty() ? enough_if_stated_otherwise() : Stated{clocks_at_fault_};
+    for (std::string& fault : std::vector{stated.within ? "" : stated.told,
                                           sides_turned_round(bench_, out_.base.fit, least_score(), quick(), jobs_)})
       if (!fault.empty()) {
         out_.quality.findings.push_back(std::move(fault));
         withdraw(out_);
         return std::move(out_);
       }
-    search_more();
+    if (!stated.within) search_more();
     decide_all();
+    if (stated.within) needs_no_effect(stated.told);
     tell_unread_floors();
     tell_scatter_of_friction();
     tell_deviations();
-    if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_)) {
+    if (kind_of_set(bench_) == Kind::history && only_friction_scatters(out_))
       if (std::string whose = friction_of_specimens(bench_, *out_.own_friction); !whose.empty())
         out_.sentences.push_back(std::move(whose));
-      if (std::string whose = test_of_other_friction(bench_, *out_.own_friction); !whose.empty())
-        out_.sentences.insert(out_.sentences.begin(), std::move(whose));
-    }
     if (kind_of_set(bench_) == Kind::history)
       if (std::string met =
               meets_all_tests(out_, [&](const Candidate& c) { return chance_of_misfit_of(c.fit).chance(); });
@@ -193,8 +192,12 @@ class Diagnoser : PairSearch {
         closest->explained, fault_sentence(closest->effects.front(), number), at_its_limit(free, number)));
   }
 
-  // Is nothing that was tried enough as it is, and the base where all that is stated may be off? Then no effect is needed. Empty: no.
-  std::string stated_wrongly() const {
+  struct Stated {
+    std::string told;     // empty: nothing of the kind
+    bool within = false;  // what the tolerances make by chance
+  };
+  // Is nothing that was tried enough as it is, and the base where all that is stated may be off? Then no effect is needed.
+  Stated enough_if_stated_otherwise() const {
     const auto enough = [&](const ModelFit& fit) { return chance_as_stated(judge_of(fit), fit).chance(); };
     if (kind_of_set(bench_) != Kind::history || enough(out_.base.fit)) return {};
     for (const Candidate& c : out_.candidates)
@@ -202,8 +205,20 @@ class Diagnoser : PairSearch {
     const auto [stated, judge] = stated_beside(out_.base.fit);
     const std::string off = most_off(stated);
     if (off.empty() || !chance_of_misfit(bench_, judge, out_.base.fit, stated.misfit).chance()) return {};
-    return fmt::format(
-        "the model is enough within the tolerances of what is stated, above all if {}: measure that again", off);
+    if (within_tolerances(stated)) return {off, true};
+    return {fmt::format(
+        "the model is enough within the tolerances of what is stated, above all if {}: measure that again", off)};
+  }
+
+  void needs_no_effect(const std::string& if_stated_otherwise) {
+    out_.verdict = Verdict::none;
+    out_.reason = Reason::none;
+    out_.effects.clear();
+    for (Candidate& c : out_.candidates) c.rival = false;
+    out_.enough_if = if_stated_otherwise;
+    out_.sentences = {
+        fmt::format("no effect is needed: the model is enough within the tolerances of what is stated, above all if {}",
+                    if_stated_otherwise)};
   }
 
   void decide_all() {
@@ -313,7 +328,8 @@ class Diagnoser : PairSearch {
     if (known.effects.empty() || known.laboratory || chance_of_misfit_of(known.fit).chance()) return;
     const OwnFriction own = closest_with_own_friction(tried_alone());
     const double least = what_suits(known.fit).misfit - chance_of_another(known).observed;
-    look_at_clocks(judge_of(known.fit), known, std::min(least, own.of_tests.misfit));
+    const bool near_enough = known.misfit_of_fit <= adequate * adequate * total(out_.samples);
+    if (!near_enough) look_at_clocks(judge_of(known.fit), known, std::min(least, own.of_tests.misfit));
     if (clocks_at_fault_.empty() && explain_tests(own.of_tests, total(out_.samples), least) &&
         chance_as_stated(judge_of(own.fit), own.fit).chance())
       friction_beside_ = own;

@@ -75,7 +75,10 @@ struct Diagnosis {
   std::vector<Chance> chances;             // each that decided
   std::optional<OwnNumbers> own_friction;  // of the base, or of the best effect, where it leaves more than chance
   bool friction_of_base = true;            // whose
-  bool deviations_sought = false;          // were effects fitted beside what is stated, off within its tolerances?
+  // Of verdict none: with what stated otherwise, within its tolerance, the model is enough that is not as it stands: "the width is 0.06 % larger
+  // than stated"; empty: as it stands.
+  std::string enough_if = {};
+  bool deviations_sought = false;  // were effects fitted beside what is stated, off within its tolerances?
   // Standard deviation of ln friction from test to test that is allowed for, so that misfits count what it does not explain;
   // 0: as it makes no difference.
   double friction_scatter = 0;

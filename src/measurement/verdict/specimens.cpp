@@ -75,7 +75,7 @@ std::string friction_of_specimens(const Bench& bench, const OwnNumbers& friction
       fmt::join(told, "; "), 100 * std::sqrt(within));
 }
 
-std::string test_of_other_friction(const Bench& bench, const OwnNumbers& friction) {
+std::optional<TestOfOtherFriction> test_of_other_friction(const Bench& bench, const OwnNumbers& friction) {
   const auto tests = tests_of(bench.data(), Role::calibration);
   const auto n = static_cast<double>(friction.of_tests.size());
   if (n < 3) return {};
@@ -89,14 +89,20 @@ std::string test_of_other_friction(const Bench& bench, const OwnNumbers& frictio
   const double left = std::pow(n - 1, 2) - n * g2;
   const double p = left > 0 ? std::min(1.0, 2 * n * gsl_cdf_tdist_Q(std::sqrt(n * (n - 2) * g2 / left), n - 2)) : 0;
   if (!(squares > 0) || p > chance_level) return {};
-  const double squares_of_others = std::max(0.0, squares - std::pow(ln[furthest] - sum / n, 2) * n / (n - 1));
-  const double others = (sum - ln[furthest]) / (n - 1);
+  const double of_others = std::max(0.0, squares - std::pow(ln[furthest] - sum / n, 2) * n / (n - 1));
+  return TestOfOtherFriction{.id = bench.test(tests[furthest]).id,
+                             .times_the_others = std::exp(ln[furthest] - (sum - ln[furthest]) / (n - 1)),
+                             .scatter_of_others = std::sqrt(of_others / (n - 2)),
+                             .p = p,
+                             .tests = friction.of_tests.size()};
+}
+
+std::string told(const TestOfOtherFriction& odd) {
   return fmt::format(
-      "the friction of {} is {:.2g} times that of the others, which differ by {:.2g} %: further off than chance puts "
+      "the friction of {} is {:.2g} times that of the others, which differ by {:.2g} %, further off than chance puts "
       "one "
-      "of {:g} (p {:.2g}); is it of another object, or on another floor?",
-      bench.test(tests[furthest]).id, std::exp(ln[furthest] - others), 100 * std::sqrt(squares_of_others / (n - 2)), n,
-      p);
+      "of {} (p {:.2g}): is it of another object, or on another floor?",
+      odd.id, odd.times_the_others, 100 * odd.scatter_of_others, odd.tests, odd.p);
 }
 
 }  // namespace freestand::measurement

@@ -2,6 +2,7 @@
 // their dimensions.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "measurement/fit/own_numbers.hpp"
@@ -12,9 +13,17 @@ namespace freestand::measurement {
 // (analysis of variance, F test); else empty.
 std::string friction_of_specimens(const Bench&, const OwnNumbers& friction);
 
-// A sentence where the logarithm of one test's friction lies further from the mean of all than chance would put the furthest of so many that
-// scatter alike (F. E. Grubbs, Ann. Math. Stat. 21, 1950); else empty.
-std::string test_of_other_friction(const Bench&, const OwnNumbers& friction);
+// The one test, if any, whose friction's logarithm lies further from the mean of all than chance would put the furthest of so many that
+// scatter alike (F. E. Grubbs, Ann. Math. Stat. 21, 1950).
+struct TestOfOtherFriction {
+  std::string id;
+  double times_the_others = 1;   // over their geometric mean
+  double scatter_of_others = 0;  // standard deviation of ln mu
+  double p = 1;
+  std::size_t tests = 0;  // of all
+};
+std::optional<TestOfOtherFriction> test_of_other_friction(const Bench&, const OwnNumbers& friction);
+std::string told(const TestOfOtherFriction&);  // a sentence
 
 // A sentence where the calibration tests are of several specimens, one of which may have an effect that another has not: which tests are
 // of which; else empty.
