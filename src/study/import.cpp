@@ -101,8 +101,8 @@ class Importer {
             lab.id));
     if (!mirrored.empty())
       say(fmt::format(
-          "{}: the slip looks mirrored, and no clock was set by it: turned round (sign: -1 of the column) it goes with "
-          "the floor far better at some time than as it is at any, up to {} s either way",
+          "{}: the slip looks mirrored, and no clock was set by it: with the other sign (sign: of its column) it goes "
+          "with the floor far better at some time than as it is at any, up to {} s either way",
           fmt::join(mirrored, ", "), longest_offset_s));
     std::sort(found.begin(), found.end());
     const bool one_clock = found.size() > 1 && found.back() - found.front() <= 2 * longest_step(floors, responses);
@@ -114,15 +114,13 @@ class Importer {
     if (!too_short.empty() && !one_clock)
       say(
           fmt::format("{}: slips are too few or too short to tell whether the clocks of floor and response differ: "
-                      "they are taken as one (give clock_s "
-                      "of the test, by how much the response is stamped late)",
+                      "they are taken as one (give clock_s of the test, by how much the response is stamped late)",
                       fmt::join(too_short, ", ")));
     if (!unsure.empty() && !one_clock)
       say(fmt::format(
           "{}: the slips say that the clocks of floor and response differ, and not by how much: several offsets suit "
           "them, or more than the {} s that are looked through. They are taken as one: give clock_s of the test, by "
-          "how "
-          "much the response is stamped late",
+          "how much the response is stamped late",
           fmt::join(unsure, ", "), longest_offset_s));
     if (found.empty()) return each;
     const double middle = 0.5 * (found[(found.size() - 1) / 2] + found[found.size() / 2]);
@@ -138,8 +136,7 @@ class Importer {
   static std::string clock_sentence(const std::string& whose, double clock_s) {
     return fmt::format(
         "{}: the response is stamped {:.4g} s {} against the floor by what slips show, and was shifted by that "
-        "(clock_s "
-        "of a test says what it is, 0 too)",
+        "(clock_s of a test says what it is, 0 too)",
         whose, std::abs(clock_s), clock_s > 0 ? "late" : "early");
   }
 
@@ -234,11 +231,17 @@ class Importer {
     for (const LabFile* file : {&lab.floor, &lab.response})
       if (file->time.factor != 1) columns.push_back(changed(file->time, "the time"));
     say(fmt::format("{}: {}", lab.id, fmt::join(columns, "; ")));
-    say(
-        fmt::format("{}: floor in steps of {:.4g} s, response of {:.4g} s, both now of {:.4g} s; {:.4g} s of {:.4g} s "
-                    "and {:.4g} s are in both",
-                    lab.id, floor.step_s, response.step_s, step_s, step_s * static_cast<double>(t.floor.size() - 1),
-                    floor.time.back() - floor.time.front(), response.time.back() - response.time.front()));
+    const double apart = lab.clock_s ? 0 : response.time.front() - floor.time.front();
+    say(fmt::format(
+        "{}: floor in steps of {:.4g} s, response of {:.4g} s, both now of {:.4g} s; {:.4g} s of {:.4g} s and {:.4g} s "
+        "are in both{}",
+        lab.id, floor.step_s, response.step_s, step_s, step_s * static_cast<double>(t.floor.size() - 1),
+        floor.time.back() - floor.time.front(), response.time.back() - response.time.front(),
+        std::abs(apart) > longest_offset_s
+            ? fmt::format(
+                  ", which begin {:.4g} s apart by their times: is that so, or are these of two clocks (clock_s)?",
+                  std::abs(apart))
+            : ""));
     for (const File* file : {&floor, &response})
       if (file->step_s > coarsest_step_s)
         say(fmt::format("{}: the time step of {} is {:.4g} s: is its time in seconds?", lab.id,

@@ -49,9 +49,9 @@ class Import(InFolder):
         rows = [f"{0.005 * i:.4f}\t{row['floor_acceleration_mps2'] / G:.9f}\t{20.0 + 0.001 * i:.3f}" for i, row in enumerate(self.truth[name])]
         self.write(f"table {name}.txt", "Shaking table 2\nrun 17, cabinet\nTime (s)\tACC1\tTemp\n(s)\t(g)\t(C)\n" + "\n".join(rows) + "\n")
 
-    def write_block(self, name):
+    def write_block(self, name, late=LATE):
         """Millimetres, 100 Hz, semicolons and decimal commas, turned round, on a clock of its own."""
-        rows = [f"{comma(1000 * (0.005 * i + LATE), 3)};{comma(-1000 * row['slip_m'])};" for i, row in enumerate(self.truth[name]) if i % 2 == 0]
+        rows = [f"{comma(1000 * (0.005 * i + late), 3)};{comma(-1000 * row['slip_m'])};" for i, row in enumerate(self.truth[name]) if i % 2 == 0]
         self.write(f"block_{name}.csv", "t_ms;LVDT 1;\n" + "\n".join(rows) + "\n")
 
     def test_a_floor_that_is_sampled_more_slowly_keeps_its_noise(self):
@@ -157,6 +157,17 @@ class Import(InFolder):
         told = self.imported().stdout
         self.assertIn("t01, t02, t03: the slip looks mirrored, and no clock was set by it", told)
         self.assertNotIn("was set by that", told)
+
+    def test_files_that_begin_far_apart_are_told(self):
+        self.assertNotIn("apart by their times", self.imported().stdout)
+        for name in self.truth:
+            self.write_block(name, 2.5)
+        told = self.imported("apart").stdout
+        for name in self.truth:
+            self.assertRegex(told, f"{name}: floor in steps of .* which begin 2.5 s apart by their times: is that so, or are these of two clocks")
+        text = self.lab.read_text(encoding="utf-8")
+        self.write("lab.yaml", text.replace("    role:", "    clock_s: 2.5\n    role:"))
+        self.assertNotIn("apart by their times", self.imported("given").stdout)
 
     def test_a_clock_that_is_given_is_not_estimated(self):
         text = (self.folder / "lab.yaml").read_text(encoding="utf-8")

@@ -289,7 +289,8 @@ ShownPeak shown_peak(const std::vector<double>& slip, double noise, std::uint64_
 }  // namespace
 
 PeakRatio peak_ratio(const Bench& bench, const std::vector<TestComparison>& tests, std::optional<Role> role) {
-  std::vector<double> ln;
+  std::vector<double> ln, deviation;
+  std::vector<std::string> ids;
   PeakRatio ratio{.bias_ln = unknown, .scatter_ln = unknown};
   const double noise = bench.noise(Channel::slip) * bench.sensor(Channel::slip).size();
   for (const TestComparison& c : tests) {
@@ -313,6 +314,8 @@ PeakRatio peak_ratio(const Bench& bench, const std::vector<TestComparison>& test
       shown.deviation_ln = std::hypot(shown.deviation_ln, std::sqrt(floor) / measured);
     }
     ln.push_back(shown.ln - std::log(measured));
+    deviation.push_back(shown.deviation_ln);
+    ids.push_back(test.id);
     ratio.noise_ln += shown.deviation_ln * shown.deviation_ln;
   }
   ratio.count = ln.size();
@@ -323,6 +326,11 @@ PeakRatio peak_ratio(const Bench& bench, const std::vector<TestComparison>& test
   for (const double value : ln) ratio.bias_ln += value / n;
   for (const double value : ln) ratio.scatter_ln += std::pow(value - ratio.bias_ln, 2) / (n - 1);
   ratio.scatter_ln = std::sqrt(ratio.scatter_ln);
+  if (const auto odd = odd_one(ln)) {
+    const double scatter = std::hypot(odd->scatter_of_others, deviation[odd->which]);
+    if (2 * n * gsl_cdf_ugaussian_Q(std::abs(odd->off) / scatter) < chance_level)
+      ratio.odd = odd, ratio.odd_test = ids[odd->which];
+  }
   if (ratio.count > 2) ratio.within_ln = gsl_cdf_tdist_Pinv(0.975, n - 1) * ratio.scatter_ln / std::sqrt(n);
   return ratio;
 }

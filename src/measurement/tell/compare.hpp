@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "measurement/fit/odd_one.hpp"
 #include "measurement/fit/outcome_misfit.hpp"
 #include "measurement/laboratory/quality.hpp"
 #include "measurement/predict/score.hpp"
@@ -79,6 +80,9 @@ struct PeakRatio {
   std::size_t count = 0, still = 0;
   double bias_ln = 0, scatter_ln = 0, noise_ln = 0;
   double within_ln = std::numeric_limits<double>::infinity();
+  // One test whose ratio is another's beyond what scatter and the sensor's noise make of the furthest.
+  std::optional<OddOne> odd = {};
+  std::string odd_test = {};
 
   // Beyond what the tests leave open, what noise makes of them, and the 3 % for which nobody changes a model.
   bool biased() const;

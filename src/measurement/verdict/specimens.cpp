@@ -8,6 +8,7 @@
 #include <cmath>
 #include <vector>
 
+#include "measurement/fit/odd_one.hpp"
 #include "measurement/levels.hpp"
 
 namespace freestand::measurement {
@@ -76,25 +77,15 @@ std::string friction_of_specimens(const Bench& bench, const OwnNumbers& friction
 }
 
 std::optional<TestOfOtherFriction> test_of_other_friction(const Bench& bench, const OwnNumbers& friction) {
-  const auto tests = tests_of(bench.data(), Role::calibration);
-  const auto n = static_cast<double>(friction.of_tests.size());
-  if (n < 3) return {};
   std::vector<double> ln;
-  double sum = 0, squares = 0;
-  for (const double factor : friction.of_tests) sum += ln.emplace_back(std::log(factor));
-  for (const double one : ln) squares += std::pow(one - sum / n, 2);
-  const auto furthest = static_cast<std::size_t>(
-      std::ranges::max_element(ln, {}, [&](double one) { return std::abs(one - sum / n); }) - ln.begin());
-  const double g2 = std::pow(ln[furthest] - sum / n, 2) * (n - 1) / squares;  // in squared standard deviations
-  const double left = std::pow(n - 1, 2) - n * g2;
-  const double p = left > 0 ? std::min(1.0, 2 * n * gsl_cdf_tdist_Q(std::sqrt(n * (n - 2) * g2 / left), n - 2)) : 0;
-  if (!(squares > 0) || p > chance_level) return {};
-  const double of_others = std::max(0.0, squares - std::pow(ln[furthest] - sum / n, 2) * n / (n - 1));
-  return TestOfOtherFriction{.id = bench.test(tests[furthest]).id,
-                             .times_the_others = std::exp(ln[furthest] - (sum - ln[furthest]) / (n - 1)),
-                             .scatter_of_others = std::sqrt(of_others / (n - 2)),
-                             .p = p,
-                             .tests = friction.of_tests.size()};
+  for (const double factor : friction.of_tests) ln.push_back(std::log(factor));
+  const auto odd = odd_one(ln);
+  if (!odd) return {};
+  return TestOfOtherFriction{.id = bench.test(tests_of(bench.data(), Role::calibration)[odd->which]).id,
+                             .times_the_others = std::exp(odd->off),
+                             .scatter_of_others = odd->scatter_of_others,
+                             .p = odd->p,
+                             .tests = ln.size()};
 }
 
 std::string told(const TestOfOtherFriction& odd) {

@@ -13,8 +13,7 @@ namespace freestand::measurement {
 // (analysis of variance, F test); else empty.
 std::string friction_of_specimens(const Bench&, const OwnNumbers& friction);
 
-// The one test, if any, whose friction's logarithm lies further from the mean of all than chance would put the furthest of so many that
-// scatter alike (F. E. Grubbs, Ann. Math. Stat. 21, 1950).
+// The one test, if any, whose friction's logarithm is odd_one() of all.
 struct TestOfOtherFriction {
   std::string id;
   double times_the_others = 1;   // over their geometric mean
