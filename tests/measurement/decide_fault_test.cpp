@@ -1,6 +1,7 @@
 // What the laboratory states wrongly, beside effects: told where it is off by more than its tolerance makes by chance, and takes the base to the noise.
 #include <gtest/gtest.h>
 
+#include "measurement/laboratory/laboratory.hpp"
 #include "measurement/levels.hpp"
 #include "measurement/made_candidates.hpp"
 

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "effects/effects.hpp"
-#include "measurement/laboratory/laboratory.hpp"
 #include "measurement/made_candidates.hpp"
 
 namespace freestand::measurement {

@@ -101,7 +101,6 @@ TEST(OutcomeFit, IntervalsOfTheNumberOfAnEffectHoldTheTruth) {
   held.expect(false);
 }
 
-// Nothing is open of the placements: draws are those of the effect's number, not the fit time and again.
 // Where the width is known and no test is missed, as many scatters are open as the likelihood leaves, flat before: the posterior on a grid of
 // scatters, each of 64 placements computed anew. (Places that ended at four times the best scatter once told none from another there.)
 TEST(OutcomeFit, TheScatterOfAKnownWidthIsBoundedByTestsThatAgree) {
@@ -136,6 +135,7 @@ TEST(OutcomeFit, TheScatterOfAKnownWidthIsBoundedByTestsThatAgree) {
   }
 }
 
+// Nothing is open of the placements: draws are those of the effect's number, not the fit time and again.
 TEST(OutcomeFit, DrawsOfOtherNumbersScatterToo) {
   const auto* offset_mass = effects::find("offset_mass");
   const Dataset data = made_outcomes(40, {{offset_mass, {0.25}}});

@@ -152,7 +152,7 @@ TEST_F(PosteriorTables, PlacementsScatterInASweepAsInTheFit) {
     expect_spread(width("width_m: 0.6, ", fitted, as), 0.6);
   }
   EXPECT_TRUE(std::holds_alternative<sampling::Posterior>(width(drawn, fitted, FittedAs::draws)));
-  // Of a known width the table holds placements beside the draws of their scatter: any column stands for them here.
+  // At the best a known width scatters by the best scatter, also where the table holds placements of it.
   const std::string placed =
       "{calibrate: [0.001, 0.5], value: 0.17, posterior: draws.csv, column: s, placed: block.width_m}";
   expect_spread(width("width_m: 0.6, ", placed, FittedAs::best), 0.6);

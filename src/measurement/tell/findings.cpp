@@ -199,8 +199,7 @@ class Findings {
     const PeakRatio ratio = peak_ratio(bench_, c_.tests);
     if (ratio.odd && kind_of_set(bench_) == Kind::peaks)
       say("beside the model the peak slip of {} is {:.2g} times that of the others, which scatter by {:.2g} %, further "
-          "off "
-          "than chance puts one of {} (p {:.2g}): check its unit, its scale and its record",
+          "off than chance puts one of {} (p {:.2g}): check its unit, its scale and its record",
           ratio.odd_test, std::exp(-ratio.odd->off), 100 * ratio.odd->scatter_of_others, ratio.count, ratio.odd->p);
     if (ratio.count < 3) return;
     const auto n = static_cast<double>(ratio.count);
