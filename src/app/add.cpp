@@ -5,6 +5,7 @@
 
 #include "app/command.hpp"
 #include "base/digits.hpp"
+#include "base/folder.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
 
@@ -43,7 +44,7 @@ void tell_added(const std::string& file, const std::string& content) {
 }
 
 void check_target(const std::filesystem::path& target, const AddOptions& options) {
-  if (std::filesystem::exists(target) && !options.overwrite)
+  if (is_there(target) && !options.overwrite)
     throw Error(
         fmt::format("{} exists already (it would be lost): choose another name, or give --overwrite", options.output));
   io::refuse_others(target.parent_path(), {target.filename().string()});

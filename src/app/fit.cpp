@@ -8,6 +8,7 @@
 
 #include "app/command.hpp"
 #include "app/times.hpp"
+#include "base/folder.hpp"
 
 namespace freestand::app {
 namespace {
@@ -49,7 +50,7 @@ void tell(const study::FitSummary& summary, const FitOptions& options) {
 void check(const FitOptions& options) {
   const std::string& folder = options.folder;
   const auto samples = study::samples_path(folder);
-  if (!std::filesystem::exists(samples) && std::filesystem::exists(std::filesystem::path(folder) / "fragility.h5"))
+  if (!is_there(samples) && is_there(std::filesystem::path(folder) / "fragility.h5"))
     throw Error(fmt::format("{} holds a fit, and no samples (its summary.json says samples_in): name the folder of the "
                             "sweep",
                             folder),

@@ -10,6 +10,7 @@
 #include "app/command.hpp"
 #include "app/floors.hpp"
 #include "app/synthetic_motions.hpp"
+#include "base/folder.hpp"
 #include "io/output_folder.hpp"
 #include "motion/component.hpp"
 #include "motion/processing.hpp"
@@ -88,8 +89,8 @@ std::string first_column(const std::filesystem::path& file) {
 
 // Replaced is only what begins as what is written in its place, and is none of the records that are read.
 void check_target(const std::filesystem::path& target, const std::string& column, const MotionOptions& options) {
-  if (target.empty() || !std::filesystem::exists(target)) return;
-  if (!std::filesystem::is_regular_file(target))
+  if (target.empty() || !is_there(target)) return;
+  if (!is_file(target))
     throw Error(target.string() + " is no plain file (it would be replaced by one): give the name of a file");
   if (!options.overwrite)
     throw Error(target.string() + " exists already (it would be lost): choose another name, or give --overwrite");

@@ -7,6 +7,7 @@
 #include "app/checks.hpp"
 #include "app/command.hpp"
 #include "app/query_words.hpp"
+#include "base/folder.hpp"
 #include "io/database_file.hpp"
 
 namespace freestand::app {
@@ -56,8 +57,8 @@ database::Question question_of(const QueryOptions& options) {
 
 void tell(const QueryOptions& options) {
   std::filesystem::path file = options.database;
-  if (std::filesystem::is_directory(file)) file /= io::database_name;
-  if (!std::filesystem::exists(file))
+  if (is_folder(file)) file /= io::database_name;
+  if (!is_there(file))
     throw Error(fmt::format("{} holds no database (there is no such file): name what `freestand catalogue` has made",
                             file.string()),
                 Exit::data);

@@ -4,6 +4,7 @@
 #include <freestand/error.hpp>
 #include <fstream>
 
+#include "base/folder.hpp"
 #include "base/shown_text.hpp"
 
 namespace freestand {
@@ -31,10 +32,10 @@ int next_line(std::ifstream& stream, int line, std::string& text) {
 
 std::ifstream open(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file))
-    throw Error(file.string() + (std::filesystem::is_directory(file)
-                                     ? " is a folder (a table is a file): give the table"
-                                     : " cannot be read (no such file, or no permission): check the path"),
+  if (!stream || is_folder(file))
+    throw Error(shown(file.string(), longest_path) +
+                    (is_folder(file) ? " is a folder (a table is a file): give the table"
+                                     : " cannot be read (" + why_unreadable(file) + "): check the path"),
                 Exit::data);
   return stream;
 }

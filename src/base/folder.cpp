@@ -8,6 +8,30 @@ namespace freestand {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+fs::file_type type_of(const fs::path& path) {
+  std::error_code error;
+  const fs::file_type type = fs::status(path, error).type();
+  if (type == fs::file_type::none && error != std::errc::filename_too_long)
+    throw file_error("look at", path, error.value());
+  return type == fs::file_type::none ? fs::file_type::not_found : type;
+}
+
+}  // namespace
+
+bool is_there(const fs::path& path) { return type_of(path) != fs::file_type::not_found; }
+bool is_file(const fs::path& path) { return type_of(path) == fs::file_type::regular; }
+bool is_folder(const fs::path& path) { return type_of(path) == fs::file_type::directory; }
+
+std::string why_unreadable(const fs::path& path) {
+  std::error_code error;
+  const fs::file_type type = fs::status(path, error).type();
+  if (type == fs::file_type::directory) return "it is a folder";
+  if (type == fs::file_type::not_found) return "no such file";
+  return error == std::errc::filename_too_long ? "no path is as long" : "no permission";
+}
+
 std::vector<fs::path> paths_in(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> paths;

@@ -2,9 +2,18 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 namespace freestand {
+
+// What lies at a path: nothing where it cannot be one (a name that is too long).
+bool is_there(const std::filesystem::path&);
+bool is_file(const std::filesystem::path&);
+bool is_folder(const std::filesystem::path&);
+
+// In words, of what could not be opened to be read.
+std::string why_unreadable(const std::filesystem::path&);
 
 // In no order; nothing where there is no such folder.
 std::vector<std::filesystem::path> paths_in(const std::filesystem::path& folder);

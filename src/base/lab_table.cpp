@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/folder.hpp"
 #include "base/shown_text.hpp"
 
 namespace freestand {
@@ -75,8 +76,9 @@ struct Line {
 
 std::vector<Line> lines_of(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file))
-    throw Error(file.string() + " cannot be read (no such file, or no permission): check the path", Exit::data);
+  if (!stream || is_folder(file))
+    throw Error(shown(file.string(), longest_path) + " cannot be read (" + why_unreadable(file) + "): check the path",
+                Exit::data);
   std::vector<Line> lines;
   std::string text;
   for (int number = 1; std::getline(stream, text); ++number) {

@@ -14,7 +14,7 @@ enum class Lines { escape, keep };
 std::string printable(std::string_view text, Lines lines = Lines::escape);
 
 // The same, cut behind `longest` characters with "..." in place of the rest: for words quoted out of a file.
-inline constexpr std::size_t longest_shown = 60;
+inline constexpr std::size_t longest_shown = 60, longest_path = 255;
 std::string shown(std::string_view text, std::size_t longest = longest_shown);
 
 }  // namespace freestand

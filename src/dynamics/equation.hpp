@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <type_traits>
 
 namespace freestand::dynamics {
 
@@ -32,18 +33,88 @@ double root_between(double guess, Miss&& miss) {
 }
 }  // namespace detail
 
-// By the secant method, which needs two values where x enters linearly; between two ends where that finds none.
-template <class Miss>
-double solved(bool bent, double guess, Miss&& miss) {
-  double x = guess, missed = miss(x), next = x + missed;
-  for (int i = 0; i < (bent ? 30 : 1) && next != x; ++i) {
-    const double missed_next = miss(next), slope = (missed_next - missed) / (next - x);
-    x = next, missed = missed_next;
-    if (slope != 0) next = x - missed / slope;
-    if (std::abs(next - x) <= 1e-16 * std::abs(next)) break;
+// Of one sample, or of each lane of a pack.
+template <class Real>
+struct Root {
+  Real x;
+  decltype(Real() < Real()) found;
+};
+
+// By the secant method; miss() is called with the root at last. Numbers: as in single_root.hpp.
+template <class Numbers, class Real, class Miss>
+Root<Real> secant(const Real& guess, Miss&& miss) {
+  using std::abs;
+  Real x = guess, missed = miss(x), next = x + missed;
+  auto open = next != x;
+  for (int i = 0; i < 30 && Numbers::any(open); ++i) {
+    const Real missed_next = miss(next), slope = (missed_next - missed) / (next - x);
+    const Real nearer = Numbers::choose(open & (slope != Real(0.0)), next - missed_next / slope, next);
+    x = Numbers::choose(open, next, x);
+    missed = Numbers::choose(open, missed_next, missed);
+    next = nearer;
+    open = open & (abs(next - x) > Real(1e-16) * abs(next));
   }
-  const double left = miss(next);
-  return !bent || std::abs(left) <= detail::found * (1 + std::abs(next)) ? next : detail::root_between(guess, miss);
+  const Real left = miss(next);
+  return {next, abs(left) <= Real(detail::found) * (Real(1.0) + abs(next))};
 }
+
+// Of one sample: between two ends where the secant method finds none. As there, miss() is called with the root at last.
+template <class Miss>
+double solved_between(double guess, Miss&& miss) {
+  const double x = detail::root_between(guess, miss);
+  miss(x);
+  return x;
+}
+template <class Numbers, class Miss>
+double solved(double guess, Miss&& miss) {
+  const Root<double> root = secant<Numbers>(guess, miss);
+  return root.found ? root.x : solved_between(guess, miss);
+}
+
+// A force x = act(x) that laws look at while they set it, of one sample or of each lane of a pack.
+template <class Numbers, class Real>
+class FedBack {
+ public:
+  // Coefficient 0 of its series; act() is called with it at last.
+  template <class Act>
+  Real first(const Real& guess, Act&& act) {
+    const auto miss = [&](const Real& x) { return act(x) - x; };
+    if constexpr (std::is_same_v<Real, double>) {
+      return solved<Numbers>(guess, miss);
+    } else {
+      const Root<Real> root = secant<Numbers>(guess, miss);
+      found_ = root.found;
+      return root.x;
+    }
+  }
+  // Not that of a second root, at which the floor pulls: friction that grows as the pressure falls has one. none: there is no force.
+  template <class Act, class Mask>
+  Real first_upward(const Real& guess, Act&& act, const Mask& none) {
+    const Real x = first(guess, act);
+    if constexpr (std::is_same_v<Real, double>) {
+      return x < 0 ? solved_between(0.0, [&](double y) { return act(y) - y; }) : x;
+    } else {
+      found_ = found_ & (x >= Real(0.0)) & ~none;
+      return x;
+    }
+  }
+  // Coefficient k > 0 enters linearly, with the same slope in each order.
+  template <class Act>
+  Real next(int k, Act&& act) {
+    using std::abs;
+    const Real at_zero = act(Real(0.0));
+    if (k == 1) {
+      const Real some = Real(1.0) + abs(at_zero);
+      gain_ = some / (some - (act(some) - at_zero));
+    }
+    return at_zero * gain_;
+  }
+  // Lanes that have a root. Single samples look further where there is none at hand.
+  auto found() const { return found_; }
+
+ private:
+  Real gain_;
+  decltype(Real() < Real()) found_ = Real(0.0) == Real(0.0);
+};
 
 }  // namespace freestand::dynamics

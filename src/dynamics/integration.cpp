@@ -108,7 +108,7 @@ void Integration::wait() {
 // When the floor stands still its push is gone, and what laws or a slope pull may go.
 bool Integration::ends_with_the_motion() const {
   if (!rig.laws) return false;
-  FirstEvent now(0);
+  FirstEvent now(0, rig.rest_rotation);
   with_contact_arc<wait_order>(rig, state, cursor.time(), cursor.local<wait_order>(),
                                [&](const auto& arc) { for_each_witness(rig, state, arc, now); });
   return now.found().any;
@@ -154,7 +154,7 @@ bool Integration::look_ahead(const Rig::AtRest& rest) {
   bool to_knot = true;
   with_contact_arc<N>(rig, state, cursor.time(), floor, [&](const auto& arc) {
     const auto first_event = [&](double h) {
-      FirstEvent first(h);
+      FirstEvent first(h, rig.rest_rotation);
       for_each_witness(rig, state, arc, first);
       return first.found();
     };
@@ -208,6 +208,10 @@ bool Integration::strikes_too(double at_once) const {
   return state.pivot != 0 && state.pivot * state.theta <= at_once && state.pivot * state.omega < 0;
 }
 
+void Integration::count_impact() {
+  if (rig.hop_rotation(state.pivot, state.omega) >= rig.told_rotation) ++peaks.response().impacts;
+}
+
 void Integration::resolve(Witness witness) {
   if (state.sigma != 0 || state.mode == Mode::flight || is_clearance(witness)) state.still_since = cursor.time();
   const State from = state;
@@ -216,7 +220,7 @@ void Integration::resolve(Witness witness) {
   switch (witness) {
     case Witness::impact:
       impact = at_floor = true;
-      if (rig.hop_rotation(state.pivot, state.omega) >= rig.told_rotation) ++peaks.response().impacts;
+      count_impact();
       regular = strike_floor();
       break;
     case Witness::above_right:
@@ -247,6 +251,7 @@ void Integration::resolve(Witness witness) {
   // A law may look at the rotation itself (a chain without slack): its kink is known to the tolerance of the step.
   if (regular && !at_floor && strikes_too(is_kink(witness) ? rig.rest_rotation : 0)) {
     impact = true;
+    count_impact();
     regular = strike_floor();
   }
   const bool beside_walls = regular && rig.laws && rig.laws->walls.any();
@@ -319,10 +324,10 @@ void Integration::chose(const State& from, bool impact) {
   if (++resolved_ >= settings.event_limit && !finished_) stop(Outcome::step_limit);
 }
 
-void Integration::rocked_on(int blows, int told) {
+void Integration::went_through(int blows, int told, int kinks) {
   peaks.response().impacts += told;
   peaks.response().events += blows;
-  resolved_ += blows;
+  resolved_ += blows + kinks;
 }
 
 void Integration::stop(Outcome outcome) {

@@ -89,12 +89,13 @@ class Integration {
     watch_.steps = steps;
     state.doubt = 1;
   }
-  // In them it has struck the floor so many times and rocked on, stuck; told: of rotations that count as impacts.
-  void rocked_on(int blows, int told);
-  // And once more, stuck: how it goes on is to be told.
-  void struck() {
+  // In them it has struck the floor so many times and rocked on, stuck, told of them of rotations that count as impacts, and so many kinks
+  // have turned.
+  void went_through(int blows, int told, int kinks);
+  // It has struck the floor once more and is stuck, or one more kink has turned: how it goes on is to be told.
+  void goes_on_after(bool impact) {
     const State from = state;
-    choose(from, true);
+    choose(from, impact);
   }
   int steps() const { return watch_.steps; }
   int events_left() const { return settings.event_limit - resolved_; }
@@ -127,6 +128,7 @@ class Integration {
   template <int N>
   bool look_ahead(const Rig::AtRest& rest);
   void choose(const State& from, bool impact);
+  void count_impact();
   bool choose_beside_wall();  // where no mode stands
   bool rests_at_wall(int side);
   bool land_on(int corner);

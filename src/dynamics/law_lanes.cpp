@@ -88,6 +88,7 @@ class Group {
     set(Row::kept_next, kept_rate(rig, -pivot, pivot));
     set(Row::told_rotation, rig.told_rotation);
     set(Row::rest_rotation, rig.rest_rotation);
+    set(Row::instant, rig.instant_s);
     set(Row::right_arm, rig.right / rig.h);
     set(Row::left_arm, rig.left / rig.h);
     set(Row::over_height, 1 / rig.h);
@@ -111,6 +112,7 @@ class Group {
     set(Row::peak_rotation, peaks.peak_rotation_rad);
     set(Row::peak_acceleration, peaks.peak_acceleration_mps2);
     set(Row::force_zero, rig.force_zero);
+    set(Row::turn_zero, rig.turn_zero);
     set(Row::touching, touching(rig));
     set(Row::beside_wall, beside_wall(rig));
     for (int k = 0; k < laws_.states; ++k) state_row(k)[i] = state.states[static_cast<std::size_t>(k)];
@@ -118,6 +120,7 @@ class Group {
     for (int kink = 0; kink < laws.tape.kink_count(); ++kink) {
       rows_->side[kink][i] = state.sides >> kink & 1U ? -1 : 1;
       rows_->turns_yet[kink][i] = !laws.tape.latched(kink, state.sides);
+      rows_->met[kink][i] = state.has_met(kink);
     }
     rows_->place[i] = place;
     rows_->coefficients[i] = trajectory.shaking.motion->degree + 1;
@@ -129,7 +132,8 @@ class Group {
     if (place.left > 0) rows_->read_segment(i);
     rows_->segments[i] = static_cast<int>(place.left);
     rows_->steps[i] = trajectory.steps();
-    rows_->blows[i] = rows_->told[i] = rows_->struck[i] = 0;
+    rows_->blows[i] = rows_->told[i] = rows_->kinked[i] = 0;
+    rows_->just[i] = Just::nothing;
     rows_->room[i] = trajectory.events_left();
     write_history(i, integrator.trajectory().recorder, state.mode);
   }
@@ -150,7 +154,9 @@ class Group {
     for (int k = 0; k < laws_.states; ++k) state.states[static_cast<std::size_t>(k)] = state_row(k)[i];
     trajectory.went_to(static_cast<std::size_t>(rows_->segments[i]), get(Row::start), get(Row::offset),
                        rows_->steps[i]);
-    trajectory.rocked_on(rows_->blows[i] - rows_->struck[i], rows_->told[i]);
+    read_kinks(i, trajectory.rig.laws->tape, state);
+    trajectory.went_through(rows_->blows[i] - (rows_->just[i] == Just::struck), rows_->told[i],
+                            rows_->kinked[i] - (rows_->just[i] == Just::turned));
     trajectory.recorder.times().went_to(rows_->points[i]);
     Response& peaks = trajectory.peaks.response();
     peaks.peak_slip_m = get(Row::peak_slip);
@@ -159,17 +165,27 @@ class Group {
     peaks.slid_path_m = get(Row::slid_path);
     peaks.peak_rotation_rad = get(Row::peak_rotation);
     peaks.peak_acceleration_mps2 = get(Row::peak_acceleration);
+    if (rows_->just[i] != Just::nothing) trajectory.goes_on_after(rows_->just[i] == Just::struck);
   }
 
   // The last one takes its slot.
   void remove(int i) {
     const int last = --rows_->lanes;
     if (i != last) take_place_of(last, i);
-    rows_->struck[last] = 0;  // an empty slot, which the packs read all the same
+    rows_->just[last] = Just::nothing;  // an empty slot, which the packs read all the same
   }
 
  private:
   double* state_row(int k) { return rows_->numbers[static_cast<int>(Row::state) + k]; }
+
+  void read_kinks(int i, const Tape& tape, Kinks& kinks) const {
+    kinks.left_kinks();
+    for (int j = 0; j < tape.kink_count(); ++j) {
+      const std::uint32_t bit = 1U << j;
+      kinks.sides = rows_->side[j][i] < 0 ? kinks.sides | bit : kinks.sides & ~bit;
+      if (rows_->met[j][i] > 0) kinks.turned |= bit;
+    }
+  }
 
   void write_history(int i, HistoryRecorder& recorder, Mode mode) {
     const OutputTimes& times = recorder.times();
@@ -192,7 +208,11 @@ class Group {
     const auto move = [&](auto& row) { row[i] = row[last]; };
     for (auto& row : rows_->numbers) move(row);
     for (int node = input_count; node < laws_.tape.size(); ++node) move(rows_->value[node]), move(rows_->shift[node]);
-    for (int kink = 0; kink < laws_.tape.kink_count(); ++kink) move(rows_->side[kink]), move(rows_->turns_yet[kink]);
+    for (int kink = 0; kink < laws_.tape.kink_count(); ++kink) {
+      move(rows_->side[kink]);
+      move(rows_->turns_yet[kink]);
+      move(rows_->met[kink]);
+    }
     move(rows_->knot);
     for (int k = 0; k <= Motion::degree; ++k) move(rows_->horizontal[k]), move(rows_->unit[k]);
     for (auto& row : rows_->vertical) move(row);
@@ -203,7 +223,8 @@ class Group {
     move(rows_->blows);
     move(rows_->told);
     move(rows_->room);
-    move(rows_->struck);
+    move(rows_->kinked);
+    move(rows_->just);
     move(rows_->history);
     move(rows_->points);
     move(rows_->mode);
@@ -220,8 +241,7 @@ bool can_march(const Integration& trajectory) {
   const bool contact = s.mode == Mode::slide || s.mode == Mode::rock || s.mode == Mode::slide_rock ||
                        (s.mode == Mode::rest && !trajectory.waits());
   return contact && !(trajectory.cursor.motion_over() && s.mode == Mode::rest) && s.wall == 0 && !s.released &&
-         s.doubt == 1 && !s.turned && !trajectory.peaks.waits() &&
-         trajectory.rig.laws->in_packs(s.pivot != 0, s.sigma != 0);
+         s.doubt == 1 && !s.held && !trajectory.peaks.waits() && trajectory.rig.laws->in_packs(s.sigma != 0);
 }
 
 template <class Motion>
@@ -267,12 +287,12 @@ class Pool {
     // From the last one on, since the last one of the group takes the place of one that leaves.
     for (int slot = pack_lanes_; slot-- > 0;) {
       const unsigned bit = 1U << slot;
-      if (!((stopped.before_step | stopped.at_end | stopped.undecided) & bit)) continue;
+      if (!(stopped.any() & bit)) continue;
       const int lane = group.lane(slot);
       Integrator& integrator = *lanes_[lane].integrator;
       group.read(slot, integrator);
-      if (stopped.undecided & bit) integrator.trajectory().struck();
       if (stopped.before_step & bit) integrator.step_along(series_of(slot, integrator));
+      if (stopped.unsolved & bit) integrator.step();
       if (walks_on(integrator) && group.takes(integrator.trajectory())) {
         group.write(slot, integrator);
         continue;

@@ -55,6 +55,7 @@ enum class Row : int {
   kept_next,
   told_rotation,  // as in Rig
   rest_rotation,
+  instant,
   // Stance<Real>
   right_arm,
   left_arm,
@@ -81,7 +82,8 @@ enum class Row : int {
   slid_path,
   peak_rotation,
   peak_acceleration,
-  force_zero,   // as in Rig
+  force_zero,  // as in Rig
+  turn_zero,
   touching,     // an upright block that is nearer to a wall than this touches it
   beside_wall,  // as in wall.hpp [m]
   // OutputTimes
@@ -90,6 +92,9 @@ enum class Row : int {
   state         // first of the effects' own
 };
 inline constexpr int row_count = static_cast<int>(Row::state) + max_states;
+
+// What has happened to a sample at this instant; how it goes on is not yet told.
+enum class Just : int { nothing, struck, turned };
 
 struct LawRows {
   const Laws* laws = nullptr;
@@ -102,6 +107,7 @@ struct LawRows {
   // Of the tape, by node; of its kinks: +1 or -1, the side on which each lane is, and 1 where it may still turn, else 0.
   alignas(64) double value[max_nodes][law_slots] = {}, shift[max_nodes][law_slots] = {};
   alignas(64) double side[max_kinks][law_slots] = {}, turns_yet[max_kinks][law_slots] = {};
+  alignas(64) double met[max_kinks][law_slots] = {};  // 1: at this instant (kinks.hpp)
   // The present segment of the motion: where it ends, in the motion's own time, its coefficients and those of a vertical channel;
   // and what makes coefficient k one of seconds, scale / stretch^k.
   alignas(64) double knot[law_slots] = {}, horizontal[max_floor_degree + 1][law_slots] = {};
@@ -109,9 +115,10 @@ struct LawRows {
   // Where they come from; how many coefficients a segment has; segments to go, this one included.
   FloorCursor::Place place[law_slots] = {};
   int coefficients[law_slots] = {}, segments[law_slots] = {};
-  // Steps within the segment; blows that the packs have gone through, those that count as impacts, and how many more may follow.
-  int steps[law_slots] = {}, blows[law_slots] = {}, told[law_slots] = {}, room[law_slots] = {};
-  int struck[law_slots] = {};  // 1: just so, it is not yet told how it goes on
+  // Steps within the segment; blows that the packs have gone through, those that count as impacts, kinks that have turned, and how many
+  // events there may be.
+  int steps[law_slots] = {}, blows[law_slots] = {}, told[law_slots] = {}, kinked[law_slots] = {}, room[law_slots] = {};
+  Just just[law_slots] = {};
   // What is written of each: null, or its history, and how many points of it lie behind.
   History* history[law_slots] = {};
   long points[law_slots] = {};
@@ -131,10 +138,11 @@ struct LawRows {
 HistoryPoint& add_point(History&);
 void add_blow(History&, double time_s, int pivot);  // of a block that rocks on
 
-// Which lanes stopped: before a step in which something may happen, at the end of their motion, or after a blow that leaves open
-// how they go on. Bit l: lane l.
+// Which lanes stopped: before a step in which something may happen, or whose forces the pack did not find, at the end of their motion,
+// or after a blow that leaves open how they go on. Bit l: lane l.
 struct Stopped {
-  unsigned before_step, at_end, undecided;
+  unsigned before_step, unsolved, at_end, undecided;
+  unsigned any() const { return before_step | unsolved | at_end | undecided; }
 };
 
 // Steps with the first pack of lanes, until one stops; those beyond rows.lanes stand still.

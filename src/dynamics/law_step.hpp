@@ -50,9 +50,8 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
     prepare();
     leans_ = turns() && state.at_wall();
     rocks_plainly_ = rocks_plainly_ && !leans_;
+    friction_sees_force_ = friction_sees_force_ && !leans_;
     if (leans_) leaning_.lever = lever_over_corner(rig, state.pivot, state.wall, state.edge);
-    friction_sees_force_ =
-        turns() && !leans_ && slips() && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::normal);
   }
 
   // Samples of one kind that have the laws' tape in common, but for its numbers. Those for which Laws::in_packs() holds. `at` and
@@ -76,6 +75,9 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
     finish();
     return y_;
   }
+
+  // Lanes whose forces were found: others have to be looked at alone.
+  auto has_found_forces() const { return fed_back_.found(); }
 
   const LawArc<N, Real>& accelerations() {  // alone: coefficients 1 of the speeds
     begin();
@@ -110,8 +112,8 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
       if constexpr (single)
         numerator = product(y_.rx, floor_.g, k) - product(y_.ry, floor_.a, k) + numerator;
       else
-        numerator = of_floor<Kind::vertical_degree>(y_.rx, floor_.g, k) - of_floor<Kind::degree>(y_.ry, floor_.a, k) +
-                    numerator;
+        numerator =
+            product<Kind::vertical_degree>(y_.rx, floor_.g, k) - product<Kind::degree>(y_.ry, floor_.a, k) + numerator;
       if (laws_.force >= 0) numerator = numerator + product(y_.ry, force_, k);
       y_.alpha[k] = numerator * over_inertia_;
       integrate_coefficient(y_, Real(0.0), k);
@@ -126,15 +128,6 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
       if (laws_.reads(Input::normal)) see_normal(k, y_.fy[k] * Real(1 / standard_gravity_mps2));
     }
   }
-  // Coefficient k of y times what the floor does, a polynomial of that degree.
-  template <int degree>
-  [[gnu::always_inline]] static Real of_floor(const Series<Real, N>& y, const Series<Real, N>& floor, int k) {
-    const int first = k > degree ? k - degree : 0;
-    Real sum = y[first] * floor[k - first];
-#pragma GCC unroll 16
-    for (int i = first + 1; i <= k; ++i) sum = sum + y[i] * floor[k - i];
-    return sum;
-  }
 
   [[gnu::always_inline]] void coefficient(int k) {
     this->kinematics(k);
@@ -144,30 +137,30 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
 
   // On a corner laws may depend on the normal force, which depends on them.
   [[gnu::always_inline]] void forces(int k) {
-    if constexpr (single) {
-      if (k == 0 && friction_sees_force_) {
-        act_alone(0, 0.0);
-        let_go_ = y_.n[0] < y_.rx[0] * y_.moment[0] / at_.body.k2;
-      }
-      if (let_go_) return static_cast<void>(act_alone(k, 0.0));
-      if (turns() && laws_.sees_normal_force(slips())) {
-        const auto missed = [&](double normal) { return act_alone(k, normal) - normal; };
-        double normal = solved(k == 0, y_.n[k] / standard_gravity_mps2, missed);
-        // Friction that grows as the pressure falls has a second root, at which the floor pulls.
-        if (k == 0 && friction_sees_force_ && normal < 0) normal = detail::root_between(0.0, missed);
-        return static_cast<void>(act_alone(k, normal));
-      }
-    }
+    if (sees_force_) return act_for_normal(k);
     const bool seen = laws_.reads(Input::normal);
     if (seen && laws_.lift >= 0) see_normal(k, y_.n[k] * Real(1 / standard_gravity_mps2)), forces_of_laws(k);
     const Real normal = act(k, seen ? y_.n[k] * Real(1 / standard_gravity_mps2) : Real(0.0));
     if (seen) see_normal(k, normal);
   }
 
+  // The normal force that the laws look at is the one that comes of them.
+  [[gnu::noinline]] void act_for_normal(int k) {
+    const Real none(0.0), guess = y_.n[0] * Real(1 / standard_gravity_mps2);
+    const auto normal = [&](const Real& seen) { return act_alone(k, seen); };
+    if (k > 0) return static_cast<void>(normal(let_go_ ? none : fed_back_.next(k, normal)));
+    if (!friction_sees_force_) return static_cast<void>(fed_back_.first(guess, normal));
+    if (laws_.moment >= 0 || laws_.lift >= 0) normal(none);
+    const auto lets_go = y_.n[0] * at_.body.k2 < y_.rx[0] * y_.moment[0];
+    if constexpr (single)
+      if ((let_go_ = lets_go)) return static_cast<void>(normal(none));
+    fed_back_.first_upward(guess, normal, lets_go);
+  }
+
   // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
   [[gnu::always_inline]] Real act(int k, const Real& normal) {
     if (laws_.reads(Input::normal)) see_normal(k, normal);
-    if constexpr (single) y_.fy[k] = standard_gravity_mps2 * normal;
+    if (friction_sees_force_) y_.fy[k] = Real(standard_gravity_mps2) * normal;
     forces_of_laws(k);
     if (!slips()) {
       stuck(k);
@@ -175,8 +168,8 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
       bool found = false;
       if constexpr (single)
         if (legs_ && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::speed)) {
-          slip_of_foot(k, solved(k == 0, k == 0 ? std::fmax(at_.sigma * at_.foot, 0.0) : 0.0,
-                                 [&](double speed) { return slip_of_foot(k, speed) - speed; }));
+          const double guess = k == 0 ? std::fmax(at_.sigma * at_.foot, 0.0) : 0.0;
+          solved<Numbers>(guess, [&](double speed) { return slip_of_foot(k, speed) - speed; });
           found = true;
         }
       if (!found) slip(k);
@@ -184,8 +177,8 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
     if constexpr (single) {
       if (legs_ && k == 0 && std::abs(y_.foot[0]) < foot_zero * state_->doubt) y_.foot[0] = 0;
       if (let_go_) y_.foot[k] = k == 0 ? (legs_ ? at_.foot : at_.w) : 0.0;  // it stands on nothing that would tell
-      if (friction_sees_force_) return (y_.n[k] - product(y_.rx, y_.alpha, k)) / standard_gravity_mps2;
     }
+    if (friction_sees_force_) return (y_.n[k] - product(y_.rx, y_.alpha, k)) * Real(1 / standard_gravity_mps2);
     return y_.fy[k] * Real(1 / standard_gravity_mps2);
   }
   // The same as a function of its own, for what few samples ask: the compiler has it once for all orders.
@@ -285,10 +278,11 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
     if (!turns()) {
       y_.alpha[k] = Real(0.0);
       y_.fy[k] = y_.n[k];
-    } else if (single && friction_sees_force_) {
+    } else if (friction_sees_force_) {
       y_.d[k] = k == 0 ? at_.body.k2 : Real(0.0);
       friction_[k] = sigma_mu * product(factor_, y_.fy, k);
-      y_.alpha[k] = (product(y_.rx, y_.fy, k) + product(y_.ry, friction_, k) + y_.moment[k]) / at_.body.k2;
+      y_.alpha[k] =
+          (product(y_.rx, y_.fy, k) + product(y_.ry, friction_, k) + y_.moment[k]) * (Real(1.0) / at_.body.k2);
     } else {
       q_[k] = y_.rx[k] + sigma_mu * with_factor(y_.ry, k);
       y_.d[k] = product(y_.rx, q_, k) + (k == 0 ? at_.body.k2 : Real(0.0));
@@ -323,9 +317,8 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
     y_.ax[N] = y_.foot[N] = y_.moment[N] = y_.lift[N] = Real(0.0);
     y_.friction = slips() ? factor_[0] : Real(1.0);
     y_.pressed = y_.fy;
-    if constexpr (single)
-      for (int k = 0; k < N && friction_sees_force_; ++k)
-        y_.pressed[k] = y_.n[k] - product(y_.rx, y_.moment, k) / at_.body.k2;
+    for (int k = 0; k < N && friction_sees_force_; ++k)
+      y_.pressed[k] = y_.n[k] - product(y_.rx, y_.moment, k) / at_.body.k2;
     if (laws_.walls.any()) this->gaps();
     for (int i = 0; i < laws_.states; ++i) y_.states[i][N] = value(Input::state, i)[N];
     limits();
@@ -340,6 +333,7 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
     } else {
       for (int j = 0; j < laws_.tape.kink_count(); ++j) {
         y_.kink[j] = scaled(numbers_.on_side(j, Real(1.0), Real(-1.0)), values_[laws_.tape.kink_argument(j)]);
+        y_.kink[j][0] = numbers_.unless_met(j, y_.kink[j][0]);
         y_.kink[j][N] = Real(0.0);
       }
     }
@@ -384,6 +378,11 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
   const bool grip_changes_ = laws_.grip_changes();
   // When it is stuck: nothing in the equations looks at forces or states, or pushes but laws.
   bool rocks_plainly_ = whole_ && !legs_ && laws_.states == 0 && laws_.lift < 0 && !laws_.sees_normal_force(false);
+  // On a corner: the laws look at the normal force; friction does, of the corner that it slips on.
+  bool sees_force_ = turns() && laws_.sees_normal_force(slips());
+  bool friction_sees_force_ =
+      sees_force_ && slips() && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::normal);
+  FedBack<Numbers, Real> fed_back_;
   Real over_inertia_, over_d_;  // 1/(k^2 + r^2); 1/D at the start
   Series<Real, N> factor_, load_, inertia_, q_, friction_;
   Real acceleration_ = Real(0.0), deflection_rate_ = Real(0.0), wall_force_ = Real(0.0);
@@ -391,9 +390,8 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
   struct None {};
   const Rig* rig_ = nullptr;
   const State* state_ = nullptr;
-  bool leans_ = false;                // an edge at a wall
-  bool friction_sees_force_ = false;  // on the corner that it slips on
-  bool let_go_ = false;               // that corner, by the floor
+  bool leans_ = false;   // an edge at a wall
+  bool let_go_ = false;  // the corner that it slips on, by the floor
   [[no_unique_address]] std::conditional_t<single, Leaning<N>, None> leaning_;
 };
 

@@ -122,9 +122,7 @@ bool Laws::straight(bool slips) const {
   return !sees_normal_force(slips);
 }
 
-bool Laws::in_packs(bool turns, bool slips) const {
-  if (turns && (sees_normal_force(slips) || (slips && friction >= 0 && tape.depends(friction, Input::normal))))
-    return false;
+bool Laws::in_packs(bool slips) const {
   if (slips) return legs.frequency_radps == 0;
   for (int j = 0; j < tape.kink_count(); ++j) {
     const int node = tape.kink_node(j), argument = tape.kink_argument(j);

@@ -58,10 +58,9 @@ struct Laws {
   // Of a contact that slips or not: those in its equations are sums and multiples of what they look at, on either side of their
   // kinks: they bend no series that the block does not bend itself, whose last terms tell what a step neglects.
   bool straight(bool slips) const;
-  // A pack can step along: nothing needs to be solved for a force or a speed that a law follows while it sets it, no kinks turn
-  // with the direction of a slip that is about to begin, and no foot slips under legs, which has no mass and moves faster than the
-  // knots of a record follow one another.
-  bool in_packs(bool turns, bool slips) const;
+  // A pack can step along: no kinks turn with the direction of a slip that is about to begin, and no foot slips under legs, which has
+  // no mass and moves faster than the knots of a record follow one another.
+  bool in_packs(bool slips) const;
   // The two differ in numbers only.
   bool same_shape(const Laws& other) const;
   // On which side of their kinks the laws are when nothing has moved yet.

@@ -58,7 +58,7 @@ class ReferenceIntegrator {
  private:
   // A jump of the floor's acceleration may end the mode at once.
   bool resolve_if_violated() {
-    FirstEvent now(0);
+    FirstEvent now(0, rig().rest_rotation);
     const auto floor = trajectory_.cursor.local<judge_order>();
     bool forces = true;
     with_arc(floor, [&](const auto& arc) {

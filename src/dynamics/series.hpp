@@ -47,6 +47,16 @@ template <class Real, int N>
   return sum;
 }
 
+// The same of a polynomial b of that degree.
+template <int degree, class Real, int N>
+[[gnu::always_inline]] inline Real product(const Series<Real, N>& a, const Series<Real, N>& b, int k) {
+  const int first = k > degree ? k - degree : 0;
+  Real sum = a[first] * b[k - first];
+#pragma GCC unroll 16
+  for (int i = first + 1; i <= k; ++i) sum = sum + a[i] * b[k - i];
+  return sum;
+}
+
 // dy/dtau; the last coefficient is zero.
 template <class Real, int N>
 Series<Real, N> derivative(const Series<Real, N>& y) {
@@ -98,16 +108,17 @@ template <class Real, int N>
   return (y[0] == Real(0.0)) & (y[1] > least) & surely_positive(over_tau, h);
 }
 
-// y > 0 on (0, h] beyond doubt, by its shape: not negative at the start, and rising all the way; or bent downwards all the way, over its
-// chord, with an end that is more than what round-off makes of zero.
+// y > 0 on (0, h] beyond doubt, by its shape: not negative at the start, and rising all the way; or, with an end that is more than what
+// round-off makes of zero, falling all the way, or bent downwards all the way, over its chord.
 template <class Real, int N>
-[[gnu::always_inline]] inline auto surely_rises_or_arches(const Series<Real, N>& y, const Real& h) {
+[[gnu::always_inline]] inline auto surely_positive_by_shape(const Series<Real, N>& y, const Real& h) {
   using std::abs;
-  Real least_slope(0.0), most_bend(0.0), end(0.0), size(0.0);
+  Real least_slope(0.0), most_slope(0.0), most_bend(0.0), end(0.0), size(0.0);
 #pragma GCC unroll 16
   for (int k = N; k >= 1; --k) {
     const Real times(static_cast<double>(k)), here = y[k], bound = abs(here);
     least_slope = least_slope * h + times * (k > 1 ? -bound : here);
+    most_slope = most_slope * h + times * (k > 1 ? bound : here);
     if (k > 1) most_bend = most_bend * h + times * Real(k - 1.0) * (k > 2 ? bound : here);
     end = end * h + here;
     size = size * h + bound;
@@ -115,7 +126,8 @@ template <class Real, int N>
   end = y[0] + end * h;
   size = abs(y[0]) + size * h;
   const auto starts = (y[0] > Real(0.0)) | ((y[0] == Real(0.0)) & (y[1] > Real(0.0)));
-  return starts & ((least_slope > Real(0.0)) | ((most_bend < Real(0.0)) & (end > Real(1e-12) * size)));
+  const auto is_above = end > Real(1e-12) * size, keeps = (most_slope < Real(0.0)) | (most_bend < Real(0.0));
+  return starts & ((least_slope > Real(0.0)) | (is_above & keeps));
 }
 
 // |y| <= limit on all of [0, h] beyond doubt.

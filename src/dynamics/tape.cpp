@@ -125,6 +125,8 @@ Value pow(Value x, double exponent) {
   return power(Op::power, x, exponent);
 }
 
+Value power_of_positive(Value x, double exponent) { return x.tape->append(Op::power, x.node, 0, exponent); }
+
 // As next to zero a power that is known.
 Value pow(Value x, Value exponent) {
   const Value line = x / zero_of_roots * exp(exponent * std::log(zero_of_roots));

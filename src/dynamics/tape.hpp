@@ -66,7 +66,7 @@ struct Node {
   Op op;
   std::int16_t a, b;  // operands; power: exponent in `value`; sin and cos: b is the partner
   double value;       // of a constant; of an exponent; affine: value * a + shift
-  double shift;       // sqrt and power: slope of the line that stands for them next to zero
+  double shift;       // sqrt and power: slope of the line that stands for them next to zero, where there is a kink to it
   std::int16_t kink;  // on whose sides it differs; -1: none
 };
 
@@ -119,6 +119,7 @@ class Tape {
 
   // A step is 1 where its argument is greater than zero: not at rest, where a speed is zero for long.
   bool is_step(int kink) const { return nodes_[kinks_[kink]].op == Op::step; }
+  bool is_latch(int kink) const { return nodes_[kinks_[kink]].op == Op::latch; }
   bool below(int kink, double argument) const { return argument < 0 || (argument == 0 && is_step(kink)); }
 
   // Whether the kink can turn: what has broken cannot, nor what looks at no number (on a branch that is not taken).
@@ -189,6 +190,7 @@ Value latch(Value x);     // 1 until x has once fallen below 0, then 0 for good:
 Value max(Value a, Value b);
 Value min(Value a, Value b);
 Value pow(Value x, double exponent);
+Value power_of_positive(Value x, double exponent);  // of what stays above zero
 Value pow(Value x, Value exponent);
 Value where(Value condition, Value yes, Value no);  // yes where condition > 0
 
@@ -267,7 +269,7 @@ void Tape::advance(int from, int to, int k, const Numbers& numbers, Series<Real,
         for (int j = 1; j <= k; ++j)
           sum = sum + (Real(double(j)) * numbers.value(i) - Real(double(k - j))) * x[j] * z[k - j];
         z[k] = k == 0 ? numbers.pow(x[0], numbers.value(i)) : sum / (order * x[0]);
-        z[k] = next_to_zero(i, k, x, z[k], numbers);
+        if (node.kink >= 0) z[k] = next_to_zero(i, k, x, z[k], numbers);
         break;
       case Op::sin:
         for (int j = 1; j <= k; ++j) sum = sum + Real(double(j)) * x[j] * y[k - j];

@@ -118,7 +118,7 @@ class TaylorIntegrator {
 
   template <class Arc>
   Found first_event(const State& state, const Arc& arc, double h) const {
-    FirstEvent first(h);
+    FirstEvent first(h, trajectory_.rig.rest_rotation);
     for_each_witness(trajectory_.rig, state, arc, first);
     return first.found();
   }

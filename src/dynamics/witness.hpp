@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "dynamics/contact.hpp"
 #include "dynamics/floor_force.hpp"
@@ -154,23 +155,27 @@ template <int N, class Real, class Visit>
   if (!at.can_rock || held.right || held.left) visit(Witness::pressed, arc.fy);
 }
 
+// How zero is told from round-off in them, as ZeroTolerance: level and acceleration. force, turn: as in Rig.
+template <class Real>
+std::pair<int, Real> zero_of(Witness witness, const Real& force, const Real& turn) {
+  if (witness == Witness::impact || witness == Witness::upright) return {2, turn};
+  if (witness == Witness::slipping) return {1, force};
+  return {0, witness == Witness::regular ? Real(0.0) : force};
+}
+
 // The same, a wall that takes what presses against it, and kinks.
 template <int N, class Visit>
 void for_each_witness(const Rig& rig, const State& state, const LawArc<N>& arc, Visit&& visit) {
   const double zero = rig.force_zero * state.doubt, turn_zero = rig.turn_zero * state.doubt;
-  const ZeroTolerance force{0, zero}, velocity{1, zero}, rotation{2, turn_zero}, nothing{0, 0.0};
+  const ZeroTolerance force{0, zero}, nothing{0, 0.0};
   const bool upright = state.pivot == 0;
   const Stance<double> stance{!upright,          state.sigma != 0,    rig.can_slip,
                               rig.can_rock,      double(state.pivot), double(state.sigma),
                               rig.right / rig.h, rig.left / rig.h,    1 / rig.h};
   const Held held = held_by_walls(rig, state);
   visit_contact(stance, held, arc, [&](Witness witness, const Series<double, N>& series) {
-    const bool turns = witness == Witness::impact || witness == Witness::upright;
-    visit(witness, series,
-          turns                          ? rotation
-          : witness == Witness::slipping ? velocity
-          : witness == Witness::regular  ? nothing
-                                         : force);
+    const auto [level, acceleration] = zero_of(witness, zero, turn_zero);
+    visit(witness, series, ZeroTolerance{level, acceleration});
   });
   const bool leans = !upright && state.at_wall();
   if (leans) visit(Witness::leaning, arc.wall_push, force);
@@ -289,17 +294,30 @@ struct Found {
   double tau = 0;
 };
 
+// How long before an impact a kink is the blow's: laws that look at where the block is, or how fast, often bend there, and their arguments
+// and the rotation are known to the tolerance of a step alone. height: of the corner that comes down [rad].
+template <int N, class Real>
+Real before_blow(const Series<Real, N>& height, const Real& rest_rotation) {
+  using std::abs;
+  return rest_rotation / abs(height[1]);
+}
+
 class FirstEvent {
  public:
-  explicit FirstEvent(double h) { found_.tau = h; }
+  FirstEvent(double h, double rest_rotation) : rest_rotation_(rest_rotation) { found_.tau = h; }
   template <int N>
   void operator()(Witness witness, const Series<double, N>& series, ZeroTolerance zero) {
     double tau = 0;
-    if (first_root(series, found_.tau, zero, tau) && (!found_.any || tau < found_.tau)) found_ = {true, witness, tau};
+    const double within = is_kink(witness) ? std::fmax(found_.tau - before_blow_, 0.0) : found_.tau;
+    if (!first_root(series, within, zero, tau) || (found_.any && !(tau < found_.tau))) return;
+    found_ = {true, witness, tau};
+    before_blow_ = witness == Witness::impact ? before_blow(series, rest_rotation_) : 0;
   }
   Found found() const { return found_; }
 
  private:
+  const double rest_rotation_;
+  double before_blow_ = 0;
   Found found_;
 };
 

@@ -22,7 +22,8 @@ const Register pressure_friction{{
         },
     .twins = "invisible where the normal force does not change: a block that only slides on a floor without vertical "
              "shaking.",
-    .friction = [](const At& at, const Parameters& p) { return pow(max(at.normal, at.normal * 0.0 + 1e-6), p[0]); },
+    .friction = [](const At& at,
+                   const Parameters& p) { return power_of_positive(1e-6 + positive(at.normal - 1e-6), p[0]); },
 }};
 
 }  // namespace freestand::effects

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <freestand/error.hpp>
 
+#include "base/folder.hpp"
 #include "base/units.hpp"
 #include "motion/record.hpp"
 
@@ -52,10 +53,10 @@ std::filesystem::path station_folder(const std::filesystem::path& records) {
   const std::string event = "Loma_Prieta_1989", first = stations[0].files[0];
   std::filesystem::path folder = records;
   for (const auto& one : {records / event, records / "slammer" / event})
-    if (std::filesystem::exists(one / first)) folder = one;
+    if (is_there(one / first)) folder = one;
   for (const Station& station : stations)
     for (const char* file : station.files)
-      if (!std::filesystem::exists(folder / file))
+      if (!is_there(folder / file))
         throw Error((folder / file).string() + " is not there (table 7.1 needs the six records of its stations, in " +
                         event + "): give the folder that holds them with --records, or leave --records out",
                     Exit::data);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "base/durable_file.hpp"
+#include "base/folder.hpp"
 #include "parallel/finished_blocks.hpp"
 #include "parallel/progress.hpp"
 #include "parallel/run_files.hpp"
@@ -63,7 +64,7 @@ struct KeptSize {
 KeptSize kept_size(const std::vector<std::filesystem::path>& copies, const std::string& fingerprint) {
   std::size_t damaged = 0, there = 0;
   for (const std::filesystem::path& file : copies) {
-    if (!std::filesystem::exists(file)) continue;
+    if (!is_there(file)) continue;
     const std::string text = read_whole(file);
     std::istringstream words(text);
     std::string whose;
@@ -96,7 +97,7 @@ std::int64_t decided_size(const Study& study, const Evaluator& evaluator, const 
   if (size == 0) size = size_by_time(study, evaluator, block_s);
   const std::string text = size_text(fingerprint, size);
   for (const std::filesystem::path& file : copies)
-    if (!std::filesystem::exists(file) || read_whole(file) != text) write_durably(file, text);
+    if (!is_there(file) || read_whole(file) != text) write_durably(file, text);
   return size;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/units.hpp"
+#include "base/folder.hpp"
 #include "effects/effects.hpp"
 #include "measurement/fit/least_squares.hpp"
 #include "measurement/fit/posterior.hpp"
@@ -240,7 +241,7 @@ const char* decided_by(const Bench& bench, const Diagnosis& d) {
 // The diagnosis that lies in the folder; null: none. Throws Error (Exit::usage) where it is that of something else.
 Json finished(const std::filesystem::path& folder, const std::string& fingerprint) {
   const std::filesystem::path file = folder / "diagnosis.json";
-  if (!std::filesystem::exists(file)) return nullptr;
+  if (!is_there(file)) return nullptr;
   Json found = Json::parse(read_text(file), nullptr, false);
   if (found.is_object() && found.value("fingerprint", "") == fingerprint) return found;
   throw Error(

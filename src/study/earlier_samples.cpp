@@ -4,6 +4,7 @@
 
 #include <freestand/error.hpp>
 
+#include "base/folder.hpp"
 #include "study/changed_keys.hpp"
 #include "study/kernel_number.hpp"
 #include "study/sweep.hpp"
@@ -33,9 +34,9 @@ bool same_names(const std::vector<Column>& a, const std::vector<Column>& b) {
 
 EarlierSamples::EarlierSamples(const Study& study, const std::filesystem::path& folder, io::Closing closing)
     : folder_(folder) {
-  if (!std::filesystem::exists(samples_path(folder))) return;
+  if (!is_there(samples_path(folder))) return;
   reader_ = std::make_shared<const io::SampleReader>(samples_path(folder), closing);
-  if (reader_->rows() < swept_samples(*reader_) && !std::filesystem::exists(tally_path(folder))) {
+  if (reader_->rows() < swept_samples(*reader_) && !is_there(tally_path(folder))) {
     reader_.reset();
     return;
   }

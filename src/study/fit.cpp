@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/folder.hpp"
 #include "io/fragility_file.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
@@ -62,7 +63,7 @@ EditedStudy study_of(const parallel::Communicator& world, const std::string& swe
   const std::filesystem::path file = study_path(options.from);
   std::string text;
   world.on_root([&] {
-    text = std::filesystem::exists(file) ? read_text(file) : swept;
+    text = is_there(file) ? read_text(file) : swept;
     changed_study(swept, text, file, options.changes);
   });
   return changed_study(swept, world.broadcast(text), file, options.changes);
@@ -138,7 +139,7 @@ void check_fit(const FitOptions& options) {
   const std::filesystem::path file = study_path(options.from);
   const std::string& swept = reader.provenance().study;
   const EditedStudy edited =
-      changed_study(swept, std::filesystem::exists(file) ? read_text(file) : swept, file, options.changes);
+      changed_study(swept, is_there(file) ? read_text(file) : swept, file, options.changes);
   SampleIntensity(edited.study.fragility.im, motion_summaries(reader.motions()));
   const Target target(edited.study);
   const double stay = target.kept_share() * static_cast<double>(reader.rows());

@@ -8,19 +8,14 @@
 #include <freestand/error.hpp>
 
 #include "base/shown_text.hpp"
-#include "measurement/data/floor_readings.hpp"
-#include "measurement/laboratory/timing.hpp"
 #include "measurement/noise/third_differences.hpp"
-#include "measurement/predict/bench.hpp"
 #include "study/doubts.hpp"
-#include "study/import_file.hpp"
+#include "study/import_clocks.hpp"
+#include "study/import_grid.hpp"
 #include "study/import_text.hpp"
 
 namespace freestand::study {
 namespace {
-
-constexpr double longest_offset_s = 0.5;
-constexpr double surely_mirrored = 4;  // times steadier, as more than chance is (timing.hpp)
 
 class Importer {
  public:
@@ -32,8 +27,9 @@ class Importer {
       floors.push_back(read_file(test.floor));
       responses.push_back(read_file(test.response));
     }
-    const std::vector<double> clock_s = clocks(floors, responses);
-    for (std::size_t i = 0; i < floors.size(); ++i) take(lab_.tests[i], floors[i], responses[i], clock_s[i]);
+    auto [late_s, sentences] = clocks(lab_, floors, responses);
+    out_.sentences = std::move(sentences);
+    for (std::size_t i = 0; i < floors.size(); ++i) take(lab_.tests[i], floors[i], responses[i], late_s[i]);
     tell_noise();
     out_.files.emplace_back("dataset.yaml", dataset_text(lab_, noise_, tests_));
     for (const TestOfLab& t : tests_) out_.files.emplace_back(t.test.id + ".csv", csv_text(t));
@@ -44,176 +40,13 @@ class Importer {
   void say(std::string sentence) { out_.sentences.push_back(std::move(sentence)); }
 
   void take(const LabTest& lab, const File& floor, const File& response, double clock_s) {
-    TestOfLab t = on_one_clock(lab, floor, response, clock_s);
+    TestOfLab t = on_one_clock(lab_, lab, floor, response, clock_s);
     tell(lab, floor, response, t);
     see_floor_noise(lab, floor, t.test.dt_s);
     see_noise(noise_.slip_m, response, lab.slip, lab_.noise.slip_m);
     see_noise(noise_.rotation_rad, response, lab.rotation, lab_.noise.rotation_rad);
     see_noise(noise_.block_acceleration_mps2, response, lab.block_acceleration, lab_.noise.block_acceleration_mps2);
     tests_.push_back(std::move(t));
-  }
-
-  // Of each test, by how much the response is stamped late. Tests that agree to two steps were read by one clock: its
-  // offset is the middle one, and holds for those, too, whose motion tells nothing.
-  std::vector<double> clocks(const std::vector<File>& floors, const std::vector<File>& responses) {
-    std::vector<double> found, each;
-    std::vector<std::string> together, mirrored, unsure, too_short;
-    std::vector<measurement::Timing> as_given(lab_.tests.size()),
-        turned(lab_.tests.size());  // turned: or as it is given, the better
-    for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
-      if (lab_.tests[i].clock_s || !lab_.tests[i].slip) continue;
-      const TestOfLab test = on_one_clock(lab_.tests[i], floors[i], responses[i], 0);
-      as_given[i] = timing_of(lab_.tests[i], responses[i], test, true);
-      turned[i] = timing_of(lab_.tests[i], responses[i], test, false);
-    }
-    // One that is mirrored beyond doubt tells of the others, too, unless one goes better as it is.
-    const auto sure = [&](std::size_t i) { return turned[i].gain > surely_mirrored * as_given[i].gain; };
-    bool one_sure = false, none_as_given = true;
-    for (std::size_t i = 0; i < turned.size(); ++i) {
-      one_sure |= sure(i);
-      none_as_given &= turned[i].mirrored || !turned[i].judged();
-    }
-    for (std::size_t i = 0; i < lab_.tests.size(); ++i) {
-      const LabTest& lab = lab_.tests[i];
-      each.push_back(lab.clock_s.value_or(0));
-      if (lab.clock_s || !lab.slip) continue;
-      const measurement::Timing& timing = as_given[i];
-      if (sure(i) || (one_sure && none_as_given && turned[i].mirrored)) {
-        mirrored.push_back(lab.id);
-        continue;
-      }
-      if (!timing.wrong()) {
-        if (lab.floor.path != lab.response.path) (timing.judged() ? together : too_short).push_back(lab.id);
-        continue;
-      }
-      if (!timing.known()) {
-        unsure.push_back(lab.id);
-        continue;
-      }
-      each.back() = std::round(1e4 * timing.late * step_of(floors[i], responses[i])) / 1e4;
-      found.push_back(each.back());
-    }
-    for (const LabTest& lab : lab_.tests)
-      if (!lab.slip && !lab.clock_s && lab.floor.path != lab.response.path)
-        say(fmt::format(
-            "{}: the clocks of floor and response are taken as one: slips show their offset, and none was measured "
-            "(clock_s of a test says what it is)",
-            lab.id));
-    if (!mirrored.empty())
-      say(fmt::format(
-          "{}: the slip looks mirrored, and no clock was set by it: with the other sign (sign: of its column) it goes "
-          "with the floor far better at some time than as it is at any, up to {} s either way",
-          fmt::join(mirrored, ", "), longest_offset_s));
-    std::sort(found.begin(), found.end());
-    const bool one_clock = found.size() > 1 && found.back() - found.front() <= 2 * longest_step(floors, responses);
-    if (!together.empty() && !one_clock)  // else it is told of all tests below
-      say(fmt::format(
-          "{}: no offset between the clocks of floor and response is seen by the slips, which are looked through up "
-          "to {} s either way: they are taken as one (clock_s of a test says otherwise)",
-          fmt::join(together, ", "), longest_offset_s));
-    if (!too_short.empty() && !one_clock)
-      say(
-          fmt::format("{}: slips are too few or too short to tell whether the clocks of floor and response differ: "
-                      "they are taken as one (give clock_s of the test, by how much the response is stamped late)",
-                      fmt::join(too_short, ", ")));
-    if (!unsure.empty() && !one_clock)
-      say(fmt::format(
-          "{}: the slips say that the clocks of floor and response differ, and not by how much: several offsets suit "
-          "them, or more than the {} s that are looked through. They are taken as one: give clock_s of the test, by "
-          "how much the response is stamped late",
-          fmt::join(unsure, ", "), longest_offset_s));
-    if (found.empty()) return each;
-    const double middle = 0.5 * (found[(found.size() - 1) / 2] + found[found.size() / 2]);
-    for (std::size_t i = 0; i < each.size(); ++i) {
-      if (lab_.tests[i].clock_s || !lab_.tests[i].slip) continue;
-      if (one_clock) each[i] = middle;
-      if (!one_clock && each[i] != 0) say(clock_sentence(lab_.tests[i].id, each[i]));
-    }
-    if (one_clock) say(clock_sentence("all tests", middle));
-    return each;
-  }
-
-  static std::string clock_sentence(const std::string& whose, double clock_s) {
-    return fmt::format(
-        "{}: the response is stamped {:.4g} s {} against the floor by what slips show, and was shifted by that "
-        "(clock_s of a test says what it is, 0 too)",
-        whose, std::abs(clock_s), clock_s > 0 ? "late" : "early");
-  }
-
-  // The finer one of the two files.
-  double step_of(const File& floor, const File& response) const {
-    return lab_.sampling_dt_s > 0 ? lab_.sampling_dt_s : std::min(floor.step_s, response.step_s);
-  }
-  double longest_step(const std::vector<File>& floors, const std::vector<File>& responses) const {
-    double longest = 0;
-    for (std::size_t i = 0; i < floors.size(); ++i) longest = std::max(longest, step_of(floors[i], responses[i]));
-    return longest;
-  }
-
-  // So near to it that all readings stand on the grid.
-  static bool is_whole(double ratio, std::size_t readings) {
-    return std::abs(ratio - std::round(ratio)) * static_cast<double>(readings) < 0.05;
-  }
-  // That of a reading of the response, where these stand on the grid; else as early as both run.
-  static double first_instant(const File& floor, const Series& times, double steps_a_reading) {
-    const double both = std::max(floor.time.front(), times.front());
-    if (!is_whole(steps_a_reading, times.size())) return both;
-    const auto first = std::ranges::find_if(times, [&](double time) { return time >= both; });
-    return first == times.end() ? both : *first;
-  }
-
-  TestOfLab on_one_clock(const LabTest& lab, const File& floor, const File& response, double clock_s) const {
-    Series times = response.time;
-    for (double& time : times) time -= clock_s;
-    const double step_s = step_of(floor, response), start = first_instant(floor, times, response.step_s / step_s);
-    const double end = std::min(floor.time.back(), times.back());
-    const double steps = std::floor((end - start) / step_s * (1 + 1e-9) + 1e-6);
-    if (!(steps >= 10))
-      throw Error(
-          fmt::format(
-              "{}: floor and response have no time in common ({} runs from {:.4g} to {:.4g} s, {} from {:.4g} to "
-              "{:.4g} s{}): {} clock_s, by how much the response is stamped late",
-              lab.id, lab.floor.path.string(), floor.time.front(), floor.time.back(), lab.response.path.string(),
-              response.time.front(), response.time.back(),
-              lab.clock_s ? fmt::format(", less clock_s of {:.4g} s", *lab.clock_s) : "",
-              lab.clock_s ? "correct" : "give"),
-          Exit::data);
-    const auto count = static_cast<std::size_t>(steps) + 1;
-    const auto of = [&](const File& file, const Series& time, const std::optional<LabColumn>& column) {
-      return column ? at_times(file, time, *column, start, step_s, count) : Series{};
-    };
-    TestOfLab t;
-    t.start_s = start;
-    const auto of_floor = [&](const std::optional<LabColumn>& column) {
-      return column ? floor_at_times(floor, *column, start, step_s, count) : Series{};
-    };
-    t.floor = of_floor(lab.acceleration);
-    t.vertical = of_floor(lab.vertical);
-    t.test.id = lab.id;
-    t.test.role = lab.role;
-    t.test.dt_s = step_s;
-    const double steps_a_reading = std::round(response.step_s / step_s);
-    if (is_whole(response.step_s / step_s, times.size()) && steps_a_reading <= measurement::most_steps_a_reading)
-      t.test.steps_a_reading = std::max(1, static_cast<int>(steps_a_reading));
-    t.test.slip_m = of(response, times, lab.slip);
-    t.test.rotation_rad = of(response, times, lab.rotation);
-    t.test.block_acceleration_mps2 = of(response, times, lab.block_acceleration);
-    measurement::read_floor(t.test, {lab.id, step_s, t.floor});
-    return t;
-  }
-
-  // Of the samples as they were written: those between them hide half of it.
-  static double noise_of(const File& file, const std::optional<LabColumn>& column, double given) {
-    return given > 0 || !column ? given : measurement::sensor_noise(channel(file.table, *column));
-  }
-
-  measurement::Timing timing_of(const LabTest& lab, const File& response, const TestOfLab& t,
-                                bool sign_is_known) const {
-    measurement::Dataset set;
-    set.noise.slip_m = noise_of(response, lab.slip, lab_.noise.slip_m);
-    set.noise.rotation_rad = noise_of(response, lab.rotation, lab_.noise.rotation_rad);
-    set.tests = {t.test};
-    return slip_timing(measurement::Bench(set, 0), 0, static_cast<int>(longest_offset_s / t.test.dt_s), sign_is_known);
   }
 
   static std::string changed(const LabColumn& column, const std::string& to) {

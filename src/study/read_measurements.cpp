@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/folder.hpp"
+#include "base/shown_text.hpp"
 #include "base/units.hpp"
 #include "measurement/data/test_file.hpp"
 #include "motion/component.hpp"
@@ -245,9 +247,10 @@ void check_noise(Section& file, const Dataset& set) {
 Dataset read_measurements(const std::filesystem::path& path) {
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
-  if (!stream || std::filesystem::is_directory(path))
-    throw Error(fmt::format("{} cannot be read (no such file, or no permission): check the path", path.string()),
-                Exit::data);
+  if (!stream || is_folder(path))
+    throw Error(
+        fmt::format("{} cannot be read ({}): check the path", shown(path.string(), longest_path), why_unreadable(path)),
+        Exit::data);
   text << stream.rdbuf();
 
   Problems problems(path.string());

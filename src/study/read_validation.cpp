@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/folder.hpp"
+#include "base/shown_text.hpp"
 #include "effects/effects.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/paths.hpp"
@@ -176,8 +178,9 @@ Validation parse_validation(const std::string& text, const std::filesystem::path
 Validation read_validation(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
-  if (!stream || std::filesystem::is_directory(file))
-    throw Error(fmt::format("{} cannot be read (no such file, or no permission): check the path", file.string()));
+  if (!stream || is_folder(file))
+    throw Error(fmt::format("{} cannot be read ({}): check the path", shown(file.string(), longest_path),
+                            why_unreadable(file)));
   text << stream.rdbuf();
   return parse_validation(text.str(), file);
 }

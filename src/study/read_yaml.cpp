@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/folder.hpp"
 #include "base/shown_text.hpp"
 #include "study/read_parts.hpp"
 
@@ -73,12 +74,10 @@ void tell_no_yaml(const std::string& text, const YAML::Exception& error, Problem
 std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
-  if (stream && !std::filesystem::is_directory(file)) text << stream.rdbuf();
-  if (!stream || std::filesystem::is_directory(file))
-    throw Error(fmt::format("{} cannot be read ({}): check the path", file.string(),
-                            std::filesystem::is_directory(file) ? "it is a folder"
-                            : std::filesystem::exists(file)     ? "no permission"
-                                                                : "no such file"));
+  if (!stream || is_folder(file))
+    throw Error(fmt::format("{} cannot be read ({}): check the path", shown(file.string(), longest_path),
+                            why_unreadable(file)));
+  text << stream.rdbuf();
   return text.str();
 }
 

@@ -6,6 +6,7 @@
 #include <freestand/error.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/folder.hpp"
 #include "io/csv_cell.hpp"
 #include "io/output_folder.hpp"
 #include "io/own_files.hpp"
@@ -96,7 +97,7 @@ Agreement agreement(const Reproduced& found) {
 Reproduced reproduce(const parallel::Communicator& world, const ReproduceOptions& options) {
   report::Sources sources{options.tables, options.records, spread_jobs(world, options.quiet)};
   if (options.peaks) return {report::own_peaks(*options.peaks, sources.jobs), true};
-  if (options.records && !std::filesystem::is_directory(*options.records))
+  if (options.records && !is_folder(*options.records))
     throw Error(
         fmt::format("{} is no folder (the report's records lie in one): check --records", options.records->string()),
         Exit::data);

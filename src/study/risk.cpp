@@ -7,6 +7,7 @@
 #include <freestand/error.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/folder.hpp"
 #include "decision/annual_rate.hpp"
 #include "edp/edp.hpp"
 #include "fragility/warnings.hpp"
@@ -42,7 +43,7 @@ std::vector<std::string> measures(const fragility::Result& swept) {
 
 // A sweep to fit anew: the folder itself, unless it holds a fit alone.
 std::string to_fit(const std::filesystem::path& folder) {
-  return std::filesystem::exists(folder / "samples.h5") || std::filesystem::exists(folder / "tally.h5")
+  return is_there(folder / "samples.h5") || is_there(folder / "tally.h5")
              ? folder.string()
              : std::string("SWEEP");
 }
@@ -50,7 +51,7 @@ std::string to_fit(const std::filesystem::path& folder) {
 io::FragilityFile fragility_of(const std::filesystem::path& folder) {
   refuse_database(folder);
   const std::filesystem::path file = folder / "fragility.h5";
-  if (!std::filesystem::exists(file))
+  if (!is_there(file))
     throw Error(
         fmt::format(
             "{} has no fragility.h5 (it is no fitted sweep): give the folder of `freestand run`, or fit it first",
@@ -159,10 +160,10 @@ RiskAnswer risk(const RiskOptions& options) {
   for (const double n : options.years)
     if (!(n > 0) || !std::isfinite(n))
       throw Error(fmt::format("--years {} (a time is positive): give years, as 50", n));
-  if (std::filesystem::is_directory(options.hazard))
+  if (is_folder(options.hazard))
     throw Error(fmt::format("{} is a folder (a hazard curve is a file): give hazard.csv", options.hazard.string()),
                 Exit::data);
-  if (!std::filesystem::exists(options.hazard))
+  if (!is_there(options.hazard))
     throw Error(fmt::format("{} cannot be read (no such file): check the path", options.hazard.string()), Exit::data);
   const io::FragilityFile fragility = fragility_of(options.folder);
   const decision::HazardCurve hazard =

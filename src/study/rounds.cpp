@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/durable_file.hpp"
+#include "base/folder.hpp"
 #include "fragility/tally_layout.hpp"
 #include "parallel/run_files.hpp"
 #include "study/analysis.hpp"
@@ -50,7 +51,7 @@ Rounds::Rounds(const parallel::Communicator& world, const std::filesystem::path&
 void Rounds::read() {
   std::string text;
   world_.on_root([&] {
-    if (std::filesystem::exists(file_)) text = read_whole(file_);
+    if (is_there(file_)) text = read_whole(file_);
   });
   rounds_ = rounds_of(world_.broadcast(text), fingerprint_);
 }

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 
+#include "base/folder.hpp"
 #include "fragility/groups.hpp"
 #include "io/samples_file.hpp"
 #include "parallel/progress.hpp"
@@ -39,7 +40,7 @@ fragility::Options group_options(const io::SampleReader& reader, const Study& st
 
 std::filesystem::path samples_of(const std::filesystem::path& folder) {
   refuse_database(folder);
-  if (!std::filesystem::exists(samples_path(folder)) && std::filesystem::exists(folder / "fragility.h5"))
+  if (!is_there(samples_path(folder)) && is_there(folder / "fragility.h5"))
     throw Error(
         fmt::format("{} is a fit without samples (shares are of the samples of a sweep): give the folder of the "
                     "sweep that it was fitted from",

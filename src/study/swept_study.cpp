@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <freestand/error.hpp>
 
+#include "base/folder.hpp"
 #include "io/fragility_file.hpp"
 #include "io/h5.hpp"
 #include "study/known.hpp"
@@ -36,7 +37,7 @@ std::string kept_told(const io::SampleReader& samples, std::int64_t rows) {
 Study analysed_study(const std::filesystem::path& folder, const io::SampleReader& samples) {
   Study study = parse_stored(samples.provenance().study, samples_path(folder));
   const std::filesystem::path fitted = folder / "fragility.h5";
-  if (!std::filesystem::exists(fitted)) return study;
+  if (!is_there(fitted)) return study;
   const io::Provenance provenance = io::read_provenance(io::h5::File::open(fitted).root(), io::fragility_format);
   study.fragility = parse_stored(provenance.study, fitted).fragility;
   return study;

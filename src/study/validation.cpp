@@ -7,6 +7,7 @@
 #include <limits>
 #include <span>
 
+#include "base/folder.hpp"
 #include "io/provenance.hpp"
 #include "measurement/fit/grown_fit.hpp"
 #include "measurement/fit/outcome_fit.hpp"
@@ -171,7 +172,7 @@ std::unique_ptr<Prepared> prepare(const parallel::Communicator& world, Validatio
                     "dataset.yaml, or give --measurements",
                     p->validation.file.string()));
   world.on_root([&] {
-    if (run.measurements.empty() && !std::filesystem::is_regular_file(p->measurements))
+    if (run.measurements.empty() && !is_file(p->measurements))
       throw Error(
           fmt::format("{}:{}: measurements are not there ({} is no file): correct the path, which starts at the "
                       "study's folder",

@@ -158,6 +158,15 @@ class Import(InFolder):
         self.assertIn("t01, t02, t03: the slip looks mirrored, and no clock was set by it", told)
         self.assertNotIn("was set by that", told)
 
+    def test_a_unit_that_is_another_sets_no_clock(self):
+        """A floor in g is taken as m/s2: the slip goes with it if it is a tenth of what is read, at no time as it is."""
+        text = (self.folder / "lab.yaml").read_text(encoding="utf-8")
+        self.assertNotIn("times what is read", self.imported("right").stdout)
+        self.write("lab.yaml", text.replace("{column: ACC1, unit: g}", "{column: ACC1, unit: m/s2}"))
+        told = self.imported().stdout
+        self.assertRegex(told, r"t01 \(0\.(0|1)\d*\).*: the slip goes with the floor, and no clock was set by it, if it is so many times what is read: check unit:")
+        self.assertNotIn("was shifted by that", told)
+
     def test_files_that_begin_far_apart_are_told(self):
         self.assertNotIn("apart by their times", self.imported().stdout)
         for name in self.truth:

@@ -16,6 +16,10 @@ class LaneNumbers {
   Pack on_side(int kink, const Pack& positive, const Pack& negative) const {
     return freestand::choose(load(rows_.side[kink]) > Pack(0.0), positive, negative);
   }
+  // Zero where the kink was met at this instant.
+  Pack unless_met(int kink, const Pack& x) const {
+    return freestand::choose(load(rows_.met[kink]) > Pack(0.0), Pack(0.0), x);
+  }
   static Pack choose(const PackMask& mask, const Pack& yes, const Pack& no) { return freestand::choose(mask, yes, no); }
   static bool any(const PackMask& mask) { return bits(mask); }
   static Pack exp(const Pack& x) { return each(x, exp_outside); }

@@ -63,10 +63,20 @@ class LawBlows {
     return sure & has_room();
   }
 
-  // Which of them go on rocking about that corner, stuck: its forces keep every inequality, with a margin over what counts as
-  // zero. arc: of the step after the blow.
+  // Neither the last event that is allowed, nor a step after which the sample looks whether it comes any further.
+  PackMask has_room() const {
+    alignas(64) double room[pack_lanes];
+    for (int l = 0; l < pack_lanes; ++l) {
+      const int i = l;
+      room[l] = rows_.blows[i] + rows_.kinked[i] + 1 < rows_.room[i] && rows_.steps[i] % StepWatch::watched != 0;
+    }
+    return load(room) > Pack(0.0);
+  }
+
+  // Which of them go on in their mode after a blow, or a kink: its forces keep every inequality, with a margin over what counts as
+  // zero. arc: of the step that follows.
   template <int N>
-  PackMask rocks_on(const LawArc<N, Pack>& arc, const Stance<Pack>& stance) const {
+  PackMask goes_on(const LawArc<N, Pack>& arc, const Stance<Pack>& stance) const {
     const Pack zero(0.0), force_zero = number(Row::force_zero);
     PackMask sure = zero == zero;
     visit_contact(stance, {}, arc, [&](Witness witness, const Series<Pack, N>& y) {
@@ -74,10 +84,7 @@ class LawBlows {
     });
     Pack sum(0.0);
     for (int k = 0; k < judged; ++k) sum = sum + (arc.fx[k] + arc.fy[k] + arc.alpha[k] + arc.foot[k]);
-    sure = sure & (xsimd::abs(sum) < Pack(std::numeric_limits<double>::infinity()));
-    for (int j = 0; j < laws_.tape.kink_count(); ++j)
-      sure = sure & (~(arc.kink[j][0] < zero) | (load(rows_.turns_yet[j]) == zero));
-    return sure;
+    return sure & (xsimd::abs(sum) < Pack(std::numeric_limits<double>::infinity()));
   }
 
   // Those lanes stand on the corner that came down. to: the moment before the blow, and then the one after it.
@@ -128,16 +135,6 @@ class LawBlows {
   static constexpr int judged = 3;
   Pack number(Row row) const { return load(rows_.numbers[static_cast<int>(row)]); }
   void keep(Row row, const Pack& x) { store(rows_.numbers[static_cast<int>(row)], x); }
-
-  // Neither the last event that is allowed, nor a step after which the sample looks whether it comes any further.
-  PackMask has_room() const {
-    alignas(64) double room[pack_lanes];
-    for (int l = 0; l < pack_lanes; ++l) {
-      const int i = l;
-      room[l] = rows_.blows[i] + 1 < rows_.room[i] && rows_.steps[i] % StepWatch::watched != 0;
-    }
-    return load(room) > Pack(0.0);
-  }
 
   // Of the speed of the centre of mass.
   Pack jump_of_centre(const Standing<Pack>& at) const {

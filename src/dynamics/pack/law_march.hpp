@@ -9,6 +9,7 @@
 #include "dynamics/pack/lane_history.hpp"
 #include "dynamics/pack/lane_numbers.hpp"
 #include "dynamics/pack/law_blows.hpp"
+#include "dynamics/pack/law_kinks.hpp"
 #include "dynamics/peaks.hpp"
 #include "dynamics/taylor_integrator.hpp"
 #include "dynamics/witness.hpp"
@@ -38,6 +39,7 @@ class LawMarchOf {
         step_(laws_, here_, numbers_, {}, floor_),
         end_(laws_, to_, numbers_, {}, there_),
         blows_(rows),
+        kinks_(rows),
         history_(rows),
         stance_{turning,
                 slipping,
@@ -58,19 +60,26 @@ class LawMarchOf {
     const int here = rows_.lanes < pack_lanes ? rows_.lanes : pack_lanes;
     const unsigned lanes_here = (1U << here) - 1;
     struck_ &= lanes_here;
-    Stopped stopped{0, 0, 0};
-    while (!(stopped.before_step | stopped.at_end | stopped.undecided)) {
+    turned_ &= lanes_here;
+    Stopped stopped{0, 0, 0, 0};
+    while (!stopped.any()) {
       cursor_.look(floor_);
       const Arc& arc = step_.run();
       h_ = reach_ = length_of_step(arc, lanes_here);
-      PackMask sure = nothing_happens(arc, lanes_here);
+      const unsigned solved = bits(step_.has_found_forces());
+      PackMask sure = nothing_happens(arc, lanes_here) & step_.has_found_forces();
       sure = sure & follows_laws(arc);
       if (bits(strikes_)) sure = sure & (~strikes_ | blows_.strike(to_));
-      stopped.undecided = struck_ ? struck_ & ~bits(blows_.rocks_on(arc, stance_)) : 0;
+      if (bits(kinks_.turn()))
+        sure = sure & (~kinks_.turn() | (blows_.has_room() & kinks_.alone(to_, turning, slipping)));
+      if (const unsigned just = struck_ | turned_)
+        stopped.undecided = just & ~(bits(blows_.goes_on(arc, stance_) & kinks_.keep(arc.kink)) & solved);
       history_.rocked_on(struck_ & ~stopped.undecided, cursor_.time(), here_.pivot);
-      struck_ = stopped.undecided;
+      struck_ &= stopped.undecided;
+      turned_ &= stopped.undecided;
       const unsigned free = see_extremes(arc, bits(sure) & lanes_here & ~stopped.undecided);
-      stopped.before_step = lanes_here & ~(free | stopped.undecided);
+      stopped.before_step = lanes_here & ~(free | stopped.undecided) & solved;
+      stopped.unsolved = lanes_here & ~(free | stopped.undecided) & ~solved;
       for (unsigned open = stopped.before_step; open; open &= open - 1) tell(arc, __builtin_ctz(open), series);
       history_.record(free, arc, u_, floor_, here_, laws_.lift >= 0, cursor_.time(), reach_);
       stopped.at_end = go_on(free);
@@ -114,8 +123,10 @@ class LawMarchOf {
     slid_ = number(Row::slid_path);
     rotation_ = number(Row::peak_rotation);
     acceleration_ = number(Row::peak_acceleration);
-    if (turning && !slipping)
-      for (int l = 0; l < pack_lanes; ++l) struck_ |= static_cast<unsigned>(rows_.struck[l]) << l;
+    for (int l = 0; l < pack_lanes; ++l) {
+      struck_ |= unsigned{rows_.just[l] == Just::struck} << l;
+      turned_ |= unsigned{rows_.just[l] == Just::turned} << l;
+    }
   }
 
   void save() {
@@ -136,9 +147,9 @@ class LawMarchOf {
     keep(Row::slid_path, slid_);
     keep(Row::peak_rotation, rotation_);
     keep(Row::peak_acceleration, acceleration_);
-    if (!turning || slipping) return;
-    blows_.save(at);
-    for (int l = 0; l < pack_lanes; ++l) rows_.struck[l] = struck_ >> l & 1U;
+    for (int l = 0; l < pack_lanes; ++l)
+      rows_.just[l] = struck_ >> l & 1U ? Just::struck : turned_ >> l & 1U ? Just::turned : Just::nothing;
+    if (turning && !slipping) blows_.save(at);
   }
 
   // As TaylorIntegrator's.
@@ -175,26 +186,32 @@ class LawMarchOf {
   // No witness can turn within the step, or only the raised corner comes down.
   PackMask nothing_happens(const Arc& arc, unsigned lanes_here) {
     strikes_ = h_ < h_;
+    Pack blow = h_;  // when kinks are no more the blow's
     PackMask sure = h_ > Pack(shortest_step) * number(Row::longest_step_s);
     if (const unsigned within = lanes_here & ~cursor_.to_knot(h_)) sure = sure & lanes_of(~(within & watched()));
     if (slipping && laws_.friction >= 0) sure = sure & (arc.friction >= Pack(0.0));
     visit_contact(stance_, {}, arc, [&](Witness witness, const Series<Pack, N>& y) {
+      const bool impact = witness == Witness::impact, may_strike = impact && !slipping && blows_.possible();
       PackMask positive = surely_positive(y, h_);
-      if (witness == Witness::impact) {
-        positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
-        if (bits(~positive) & lanes_here) positive = positive | surely_rises_or_arches(y, h_);
-        if (turning && !slipping && blows_.possible() && (bits(~positive) & lanes_here)) {
-          strikes_ = ~positive & blows_.comes_down(y, h_, reach_);
-          positive = positive | strikes_;
-        }
-      }
+      if (impact) positive = positive | surely_rises_from_zero(y, h_, Pack(0.0));
       if (witness == Witness::slipping) positive = positive | surely_rises_from_zero(y, h_, number(Row::force_zero));
+      if (impact && (bits(~positive) & lanes_here)) {
+        positive = positive | surely_positive_by_shape(y, h_);
+        if (may_strike) strikes_ = ~positive & blows_.comes_down(y, h_, reach_);
+      }
+      if (const unsigned open = lanes_here & bits(sure & ~(positive | strikes_))) {
+        const auto [level, zero] = zero_of(witness, number(Row::force_zero), number(Row::turn_zero));
+        Pack when = reach_;
+        const PackMask falls = falls_within(y, reach_, open, level, zero, when);
+        positive = positive | (lanes_of(open) & ~falls);
+        if (may_strike) reach_ = freestand::choose(falls, when, reach_), strikes_ = strikes_ | falls;
+      }
+      if (impact) blow = xsimd::max(reach_ - before_blow(y, number(Row::rest_rotation)), Pack(0.0));
+      if (impact) positive = positive | strikes_;
       sure = sure & positive;
     });
     if (laws_.walls.any()) sure = sure & clear_of_walls(arc);
-    for (int j = 0; j < laws_.tape.kink_count(); ++j)
-      sure = sure & (surely_positive(arc.kink[j], h_) | (load(rows_.turns_yet[j]) == Pack(0.0)));
-    return sure;
+    return sure & kinks_.stay_or_turn(arc.kink, h_, strikes_, blow, lanes_here, reach_);
   }
 
   PackMask clear_of_walls(const Arc& arc) const {
@@ -231,7 +248,7 @@ class LawMarchOf {
     const auto little = [&](const Pack& missed, Row over) {
       return xsimd::abs(missed) * number(over) * reach_ <= allowed;
     };
-    follows = follows & little(fresh.w[1] - derivative(arc.w).at(reach_), Row::over_speed);
+    follows = follows & end_.has_found_forces() & little(fresh.w[1] - derivative(arc.w).at(reach_), Row::over_speed);
     if (turning) follows = follows & little(fresh.omega[1] - derivative(arc.omega).at(reach_), Row::over_rotation);
     if (grip_changes_)
       follows = follows & little(fresh.limit_right[0] - arc.limit_right.at(reach_), Row::over_speed) &
@@ -282,7 +299,8 @@ class LawMarchOf {
 
   // Those that are free go to the end of their step; bit l: lane l is at the end of its motion, or of its time.
   unsigned go_on(unsigned free) {
-    const unsigned struck = bits(strikes_) & free, at_knot = cursor_.to_knot(h_) & free & ~struck;
+    const unsigned struck = bits(strikes_) & free, turned = bits(kinks_.turn()) & free,
+                   at_knot = cursor_.to_knot(h_) & free & ~(struck | turned);
     const PackMask goes = lanes_of(free);
     cursor_.advance(goes, reach_);
     unsigned at_end = at_knot ? cursor_.next_segment(at_knot, lanes_of(at_knot)) : 0;
@@ -294,7 +312,11 @@ class LawMarchOf {
     }
     const auto move = [&](Pack& from, const Pack& to) { from = freestand::choose(goes, to, from); };
     Standing<Pack>&at = here_, &to = to_;
+    kinks_.go_on(free, reach_);
+    turned_ |= turned;
+    if (turned && slipping) at.still_since = freestand::choose(lanes_of(turned), cursor_.time(), at.still_since);
     if (struck) {
+      kinks_.leave(struck);
       at.still_since = freestand::choose(lanes_of(struck), cursor_.time(), at.still_since);
       blows_.stand(lanes_of(struck), struck, to);
       at.body.c = to.body.c;
@@ -349,9 +371,9 @@ class LawMarchOf {
   const bool straight_, grip_changes_, on_legs_;
   const bool base_moves_;  // the point of contact, or the base over legs
   const LaneNumbers numbers_;
-  Pack h_, reach_;       // the step, and how much of it there is before a blow [s]
-  PackMask strikes_;     // within the step
-  unsigned struck_ = 0;  // before it
+  Pack h_, reach_;                    // the step, and how much of it there is before a blow [s]
+  PackMask strikes_;                  // within the step
+  unsigned struck_ = 0, turned_ = 0;  // before it
   Pack slip_, slip_right_, slip_left_, slid_, rotation_, acceleration_;
   Pack new_slip_, new_slip_right_, new_slip_left_, new_slid_, new_rotation_, new_acceleration_;
   Standing<Pack> here_, to_;
@@ -361,6 +383,7 @@ class LawMarchOf {
   Step step_;
   End end_;
   LawBlows blows_;
+  LawKinks kinks_;
   LaneHistory history_;
   Series<Pack, N> u_;  // of the base's midpoint
   Stance<Pack> stance_;

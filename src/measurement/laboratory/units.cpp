@@ -1,17 +1,23 @@
 #include "measurement/laboratory/units.hpp"
 
 #include <fmt/format.h>
+#include <gsl/gsl_cdf.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "measurement/fit/own_numbers.hpp"
 #include "measurement/laboratory/plausible.hpp"
+#include "measurement/levels.hpp"
 #include "measurement/search.hpp"
 
 namespace freestand::measurement {
 
 namespace {
+
+constexpr double ratios_of_lengths[] = {10, 100, 1000, 2.54, 25.4, 39.37, 12, 3.281};
+constexpr double radian_deg = 57.296;
 
 // Either way round.
 bool is_near(double factor, double ratio) {
@@ -37,11 +43,34 @@ double left_with_own_friction(const Bench& bench, std::size_t i, Channel channel
   return simplex({friction_of_one_test}, left, {1.0}, 0.1, budget).score;
 }
 
+constexpr double least_score = 1e-12;  // peaks are read no better
+
+void multiply(std::optional<double>& peak, double factor) {
+  if (peak) *peak *= factor;
+}
+// What peaks would be if what was written is to be multiplied by that: slips, or rotations.
+Dataset read_as(const Dataset& data, Channel channel, double factor) {
+  Dataset other = data;
+  for (Test& test : other.tests) {
+    if (channel == Channel::rotation) multiply(test.peaks.peak_rotation_rad, factor);
+    if (channel == Channel::slip) multiply(test.peaks.peak_slip_m, factor);
+    if (channel == Channel::slip) multiply(test.peaks.residual_slip_m, factor);
+  }
+  return other;
+}
+
+bool tells_peaks(const Bench& bench, Channel channel) {
+  return std::ranges::any_of(bench.data().tests, [&](const Test& test) {
+    return channel == Channel::rotation ? test.peaks.peak_rotation_rad.has_value()
+                                        : test.peaks.peak_slip_m || test.peaks.residual_slip_m;
+  });
+}
+
 }  // namespace
 
 bool is_ratio_of_units(double factor) {
-  constexpr double ratios[] = {10, 100, 1000, 2.54, 25.4, 39.37, 12, 3.281, 57.296};
-  return std::any_of(std::begin(ratios), std::end(ratios), [&](double ratio) { return is_near(factor, ratio); });
+  return is_near(factor, radian_deg) || std::any_of(std::begin(ratios_of_lengths), std::end(ratios_of_lengths),
+                                                    [&](double ratio) { return is_near(factor, ratio); });
 }
 
 bool is_in_a_unit(double factor) { return is_near(factor, 1) || is_ratio_of_units(factor); }
@@ -78,6 +107,41 @@ std::vector<OtherUnit> other_units(const Bench& bench, const ModelFit& fit, cons
     }
   }
   return found;
+}
+
+std::string peaks_in_another_unit(const Bench& bench, const ModelFit& base, double least_left_out, const Effort& effort,
+                                  const Jobs& jobs) {
+  struct Reading {
+    Channel channel = Channel::slip;
+    double factor = 1, left_out;
+  } best{.left_out = least_left_out};
+  double tried = 0;
+  for (const Channel channel : {Channel::slip, Channel::rotation}) {
+    if (!tells_peaks(bench, channel)) continue;
+    std::vector<double> factors;
+    if (channel == Channel::rotation) factors = {radian_deg, 1 / radian_deg};
+    for (const double ratio : ratios_of_lengths)
+      if (channel == Channel::slip) factors.insert(factors.end(), {ratio, 1 / ratio});
+    for (const double factor : factors) {
+      ++tried;
+      const Dataset data = read_as(bench.data(), channel, factor);
+      const Bench other(data, 0);
+      ModelFit fit = fit_models(other, {{.model = base.model, .starts = {base.x}}}, effort, jobs)[0];
+      if (fit.score >= best.left_out) continue;  // nor is it less of tests left out
+      leave_out(other, {&fit}, effort, jobs);
+      if (fit.mean_left_out() < best.left_out) best = {channel, factor, fit.mean_left_out()};
+    }
+  }
+  const auto n = static_cast<double>(base.left_out.size());
+  if (best.factor == 1 ||
+      tried * gsl_cdf_fdist_Q(base.mean_left_out() / std::max(best.left_out, least_score), n, n) > chance_level)
+    return {};
+  const bool slips = best.channel == Channel::slip;
+  return fmt::format(
+      "if the {} are {:.3g} times what is written, the model by itself misses tests left out by {:.2g} (ln), and the "
+      "best of all that was tried by {:.2g} as they stand: are they in {}?",
+      slips ? "slips" : "rotations", best.factor, std::sqrt(best.left_out), std::sqrt(least_left_out),
+      slips ? "metres" : "radians");
 }
 
 }  // namespace freestand::measurement

@@ -22,4 +22,10 @@ struct OtherUnit {
 // test, is its slip known to be in another unit already?
 std::vector<OtherUnit> other_units(const Bench&, const ModelFit&, const std::vector<bool>& told);
 
+// Peaks of a whole set in another unit: does the base, refitted to slips or to rotations read in the other, miss tests left out by less than
+// whatever was fitted to them as they stand (least_left_out, the mean score)? It has no more numbers than the base, and fewer than any effect.
+// And by more than chance: were both as good, the ratio of their mean squares would be Fisher's F, and so many are tried. Empty: no.
+std::string peaks_in_another_unit(const Bench&, const ModelFit& base, double least_left_out, const Effort&,
+                                  const Jobs&);
+
 }  // namespace freestand::measurement

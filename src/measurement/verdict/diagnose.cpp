@@ -11,6 +11,7 @@
 #include "measurement/fit/starts.hpp"
 #include "measurement/laboratory/laboratory.hpp"
 #include "measurement/laboratory/sides.hpp"
+#include "measurement/laboratory/units.hpp"
 #include "measurement/noise/unread_floors.hpp"
 #include "measurement/verdict/chance_of_peaks.hpp"
 #include "measurement/verdict/comparison.hpp"
@@ -65,8 +66,9 @@ class Diagnoser : PairSearch {
     look_for_chance();
     if (friction_beside_) return {};
     const Stated stated = clocks_at_fault_.empty() ? enough_if_stated_otherwise() : Stated{clocks_at_fault_};
-    for (std::string& fault : std::vector{stated.within ? "" : stated.told,
-                                          sides_turned_round(bench_, out_.base.fit, least_score(), quick(), jobs_)})
+    for (std::string& fault :
+         std::vector{stated.within ? "" : stated.told,
+                     sides_turned_round(bench_, out_.base.fit, least_score(), quick(), jobs_), unit_of_peaks()})
       if (!fault.empty()) {
         out_.quality.findings.push_back(std::move(fault));
         withdraw(out_);
@@ -140,6 +142,14 @@ class Diagnoser : PairSearch {
     for (const Candidate& c : out_.candidates)
       if (c.visible) least = std::min(least, c.fit.score);
     return least;
+  }
+
+  std::string unit_of_peaks() const {
+    if (kind_of_set(bench_) != Kind::peaks) return {};
+    double least = out_.base.fit.mean_left_out();
+    for (const Candidate& c : out_.candidates)
+      if (c.visible && c.fit.left_out_refitted) least = std::min(least, c.fit.mean_left_out());
+    return peaks_in_another_unit(bench_, out_.base.fit, least, quick(), jobs_);
   }
 
   // What is named because it is enough where something that is stated is off: its numbers and errors are those of a fit in which that is free.
