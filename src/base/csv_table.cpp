@@ -33,10 +33,9 @@ int next_line(std::ifstream& stream, int line, std::string& text) {
 std::ifstream open(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || is_folder(file))
-    throw Error(shown(file.string(), longest_path) +
-                    (is_folder(file) ? " is a folder (a table is a file): give the table"
-                                     : " cannot be read (" + why_unreadable(file) + "): check the path"),
-                Exit::data);
+    throw Error(
+        shown(file.string(), longest_path) + " cannot be read (" + why_unreadable(file) + "): give the path of a table",
+        Exit::data);
   return stream;
 }
 

@@ -29,7 +29,7 @@ std::string why_unreadable(const fs::path& path) {
   const fs::file_type type = fs::status(path, error).type();
   if (type == fs::file_type::directory) return "it is a folder";
   if (type == fs::file_type::not_found) return "no such file";
-  return error == std::errc::filename_too_long ? "no path is as long" : "no permission";
+  return error && error != std::errc::permission_denied ? error.message() : "no permission";
 }
 
 std::vector<fs::path> paths_in(const fs::path& folder) {

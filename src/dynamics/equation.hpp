@@ -73,7 +73,7 @@ double solved(double guess, Miss&& miss) {
 
 // A force x = act(x) that laws look at while they set it, of one sample or of each lane of a pack.
 template <class Numbers, class Real>
-class FedBack {
+class Feedback {
  public:
   // Coefficient 0 of its series; act() is called with it at last.
   template <class Act>

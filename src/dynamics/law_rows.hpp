@@ -139,7 +139,7 @@ HistoryPoint& add_point(History&);
 void add_blow(History&, double time_s, int pivot);  // of a block that rocks on
 
 // Which lanes stopped: before a step in which something may happen, or whose forces the pack did not find, at the end of their motion,
-// or after a blow that leaves open how they go on. Bit l: lane l.
+// or after a blow or a kink that leaves open how they go on. Bit l: lane l.
 struct Stopped {
   unsigned before_step, unsolved, at_end, undecided;
   unsigned any() const { return before_step | unsolved | at_end | undecided; }

@@ -77,7 +77,7 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
   }
 
   // Lanes whose forces were found: others have to be looked at alone.
-  auto has_found_forces() const { return fed_back_.found(); }
+  auto has_found_forces() const { return feedback_.found(); }
 
   const LawArc<N, Real>& accelerations() {  // alone: coefficients 1 of the speeds
     begin();
@@ -148,13 +148,13 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
   [[gnu::noinline]] void act_for_normal(int k) {
     const Real none(0.0), guess = y_.n[0] * Real(1 / standard_gravity_mps2);
     const auto normal = [&](const Real& seen) { return act_alone(k, seen); };
-    if (k > 0) return static_cast<void>(normal(let_go_ ? none : fed_back_.next(k, normal)));
-    if (!friction_sees_force_) return static_cast<void>(fed_back_.first(guess, normal));
+    if (k > 0) return static_cast<void>(normal(let_go_ ? none : feedback_.next(k, normal)));
+    if (!friction_sees_force_) return static_cast<void>(feedback_.first(guess, normal));
     if (laws_.moment >= 0 || laws_.lift >= 0) normal(none);
     const auto lets_go = y_.n[0] * at_.body.k2 < y_.rx[0] * y_.moment[0];
     if constexpr (single)
       if ((let_go_ = lets_go)) return static_cast<void>(normal(none));
-    fed_back_.first_upward(guess, normal, lets_go);
+    feedback_.first_upward(guess, normal, lets_go);
   }
 
   // Laws, contact forces and accelerations of order k for a normal force [m g]; the normal force that comes out.
@@ -168,8 +168,9 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
       bool found = false;
       if constexpr (single)
         if (legs_ && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::speed)) {
-          const double guess = k == 0 ? std::fmax(at_.sigma * at_.foot, 0.0) : 0.0;
-          solved<Numbers>(guess, [&](double speed) { return slip_of_foot(k, speed) - speed; });
+          const auto foot = [&](double speed) { return slip_of_foot(k, speed); };
+          k == 0 ? feedback_of_foot_.first(std::fmax(at_.sigma * at_.foot, 0.0), foot)
+                 : foot(feedback_of_foot_.next(k, foot));
           found = true;
         }
       if (!found) slip(k);
@@ -382,7 +383,7 @@ class LawStep : OwnStanding<Real>, LawPlace<N, Real, Numbers, Kind> {
   bool sees_force_ = turns() && laws_.sees_normal_force(slips());
   bool friction_sees_force_ =
       sees_force_ && slips() && laws_.friction >= 0 && laws_.tape.depends(laws_.friction, Input::normal);
-  FedBack<Numbers, Real> fed_back_;
+  Feedback<Numbers, Real> feedback_, feedback_of_foot_;
   Real over_inertia_, over_d_;  // 1/(k^2 + r^2); 1/D at the start
   Series<Real, N> factor_, load_, inertia_, q_, friction_;
   Real acceleration_ = Real(0.0), deflection_rate_ = Real(0.0), wall_force_ = Real(0.0);

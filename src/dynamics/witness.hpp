@@ -295,11 +295,11 @@ struct Found {
 };
 
 // How long before an impact a kink is the blow's: laws that look at where the block is, or how fast, often bend there, and their arguments
-// and the rotation are known to the tolerance of a step alone. height: of the corner that comes down [rad].
+// and the rotation are known to the tolerance of a step alone. height: of the corner that comes down at tau [rad].
 template <int N, class Real>
-Real before_blow(const Series<Real, N>& height, const Real& rest_rotation) {
+Real before_blow(const Series<Real, N>& height, const Real& tau, const Real& rest_rotation) {
   using std::abs;
-  return rest_rotation / abs(height[1]);
+  return rest_rotation / abs(derivative(height).at(tau));
 }
 
 class FirstEvent {
@@ -311,7 +311,7 @@ class FirstEvent {
     const double within = is_kink(witness) ? std::fmax(found_.tau - before_blow_, 0.0) : found_.tau;
     if (!first_root(series, within, zero, tau) || (found_.any && !(tau < found_.tau))) return;
     found_ = {true, witness, tau};
-    before_blow_ = witness == Witness::impact ? before_blow(series, rest_rotation_) : 0;
+    before_blow_ = witness == Witness::impact ? before_blow(series, tau, rest_rotation_) : 0;
   }
   Found found() const { return found_; }
 

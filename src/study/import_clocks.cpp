@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "measurement/laboratory/plausible.hpp"
 #include "measurement/laboratory/timing.hpp"
 #include "measurement/predict/bench.hpp"
 
@@ -14,7 +13,6 @@ namespace freestand::study {
 namespace {
 
 constexpr double surely_mirrored = 4;  // times steadier, as more than chance is (timing.hpp)
-constexpr double of_springs = 5;       // springs and moving contents make slips seem up to so many times as large
 
 // What the slip of a test tells.
 struct Seen {
@@ -23,7 +21,7 @@ struct Seen {
 
   bool surely_turned() const { return turned.gain > surely_mirrored * as_given.gain; }
   bool in_another_unit() const {
-    return scale.is_a_unit() && std::abs(std::log(scale.factor)) > std::log(of_springs) &&
+    return scale.is_a_unit() && std::abs(std::log(scale.factor)) > std::log(measurement::factor_of_springs) &&
            scale.gain > std::max(as_given.gain, turned.gain);
   }
 };

@@ -106,6 +106,15 @@ TEST(ChanceOfPeaks, SeesAnEffectThatOutweighsTheScatter) {
   EXPECT_GT(chance.observed, chance.usual);
 }
 
+// Peaks are read to a thousandth: what a drag changes in the fifth digit is no effect that is missing, however well it fits. (p was 0.001.)
+TEST(ChanceOfPeaks, NothingIsMissingBelowWhatPeaksAreReadTo) {
+  Specimen dragged = test::cabinet();
+  dragged.effects = {{.effect = effects::find("viscous_drag"), .parameters = {1e-3}}};
+  EXPECT_EQ(gain(peaks_of(dragged, 0, 1)).p, 1);
+  dragged.effects[0].parameters = {0.5};
+  EXPECT_LT(gain(peaks_of(dragged, 0, 1)).p, 0.01);
+}
+
 // Data from one of two: the other is not held to lead, and the one is.
 TEST(ChanceOfPeaks, SaysWhichOfTwoMadeTheData) {
   const Dataset data = peaks_of(test::cabinet("viscous_drag", {2.0}), 0.03, 2);

@@ -29,8 +29,9 @@ class LawKinks {
     turn_ = h < h;
     for (int j = 0; j < count_; ++j) {
       const Series<Pack, N>& y = kink[j];
-      PackMask stays = surely_positive(y, within) | surely_rises_from_zero(y, within, Pack(0.0)) |
-                       (load(rows_.turns_yet[j]) == Pack(0.0));
+      PackMask stays =
+          ((surely_positive(y, within) | surely_rises_from_zero(y, within, Pack(0.0))) & (within > instant)) |
+          (load(rows_.turns_yet[j]) == Pack(0.0));
       PackMask falls = h < h;
       if (lanes & ~bits(stays)) {
         const PackMask open = ~stays & tells(y, instant);
@@ -39,7 +40,7 @@ class LawKinks {
         falls = falls & (~turn_ | (when < within));
         within = choose(falls, when, within);
         stays = stays | (open & ~falls);
-        if (!laws_.walls.any() && !laws_.tape.is_latch(j)) stays = stays | falls;
+        if (!laws_.walls.any() && !laws_.tape.is_latch(j)) stays = stays | (falls & (when > instant));
       }
       for (int i = 0; i < j; ++i) store(turns_[i], choose(falls, Pack(0.0), load(turns_[i])));
       store(turns_[j], choose(falls, Pack(1.0), Pack(0.0)));
@@ -89,9 +90,11 @@ class LawKinks {
   PackMask keep(const Series<Pack, N>* kink) const {
     const Pack instant = number(Row::instant);
     PackMask sure = instant == instant;
-    for (int j = 0; j < count_; ++j)
-      sure = sure & ((tells(kink[j], instant) & ((kink[j][0] > Pack(0.0)) | (kink[j][1] > Pack(0.0)))) |
-                     (load(rows_.turns_yet[j]) == Pack(0.0)));
+    for (int j = 0; j < count_; ++j) {
+      const Series<Pack, N>& y = kink[j];
+      const PackMask rises = (y[0] > Pack(0.0)) | ((y[0] == Pack(0.0)) & (y[1] > Pack(0.0)));
+      sure = sure & ((tells(y, instant) & rises) | (load(rows_.turns_yet[j]) == Pack(0.0)));
+    }
     return sure;
   }
 

@@ -1,6 +1,6 @@
 // Samples under laws, a pack of them at once, each at its own time and in its own step, while nothing happens: no event that is not
-// excluded beyond doubt, but for blows of a block that rocks on. The same steps, with the same decisions and the same bits, as
-// taylor_integrator.hpp goes one by one.
+// excluded beyond doubt, but for blows of a block that rocks on and kinks of laws that turn. The same steps, with the same decisions and the
+// same bits, as taylor_integrator.hpp goes one by one.
 #pragma once
 
 #include "dynamics/law_step.hpp"
@@ -59,8 +59,7 @@ class LawMarchOf {
   Stopped run(double* series) {
     const int here = rows_.lanes < pack_lanes ? rows_.lanes : pack_lanes;
     const unsigned lanes_here = (1U << here) - 1;
-    struck_ &= lanes_here;
-    turned_ &= lanes_here;
+    struck_ &= lanes_here, turned_ &= lanes_here;
     Stopped stopped{0, 0, 0, 0};
     while (!stopped.any()) {
       cursor_.look(floor_);
@@ -183,7 +182,7 @@ class LawMarchOf {
     return freestand::choose(good, whole, load(h));
   }
 
-  // No witness can turn within the step, or only the raised corner comes down.
+  // No witness can turn within the step, or only the raised corner comes down, or only a kink turns.
   PackMask nothing_happens(const Arc& arc, unsigned lanes_here) {
     strikes_ = h_ < h_;
     Pack blow = h_;  // when kinks are no more the blow's
@@ -204,9 +203,10 @@ class LawMarchOf {
         Pack when = reach_;
         const PackMask falls = falls_within(y, reach_, open, level, zero, when);
         positive = positive | (lanes_of(open) & ~falls);
-        if (may_strike) reach_ = freestand::choose(falls, when, reach_), strikes_ = strikes_ | falls;
+        if (may_strike) strikes_ = strikes_ | (falls & (when > Pack(0.0)));
+        if (may_strike) reach_ = freestand::choose(falls, when, reach_);
       }
-      if (impact) blow = xsimd::max(reach_ - before_blow(y, number(Row::rest_rotation)), Pack(0.0));
+      if (impact) blow = xsimd::max(reach_ - before_blow(y, reach_, number(Row::rest_rotation)), Pack(0.0));
       if (impact) positive = positive | strikes_;
       sure = sure & positive;
     });
@@ -371,7 +371,7 @@ class LawMarchOf {
   const bool straight_, grip_changes_, on_legs_;
   const bool base_moves_;  // the point of contact, or the base over legs
   const LaneNumbers numbers_;
-  Pack h_, reach_;                    // the step, and how much of it there is before a blow [s]
+  Pack h_, reach_;                    // the step, and how much of it there is before a blow or a kink [s]
   PackMask strikes_;                  // within the step
   unsigned struck_ = 0, turned_ = 0;  // before it
   Pack slip_, slip_right_, slip_left_, slid_, rotation_, acceleration_;

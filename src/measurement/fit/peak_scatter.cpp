@@ -67,6 +67,7 @@ PeakScatter::PeakScatter(const VectorXd& y, const MatrixXd& d, std::vector<Index
   if (tau_ > 0) p_ = gsl_cdf_chisq_Q(without.minus_2_ln_likelihood - best.minus_2_ln_likelihood, 1) / 2;
   const double n = telling.count(), freedom = std::max(n - static_cast<double>(numbers), 1.0);
   rho_ = best.rho;
+  as_read_ = tau_ == 0 && best.sigma < 1.01 * least_sigma;
   sigma_ = best.sigma * std::sqrt(n / freedom);
   tau_ *= std::sqrt(n / freedom);
   for_each_test([&](std::uint64_t, Index first, Index rows) {

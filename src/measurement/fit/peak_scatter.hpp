@@ -26,6 +26,7 @@ class PeakScatter {
   double of_friction() const { return tau_; }       // tau
   double p_without_friction() const { return p_; }  // how likely chance is to show as large a tau where there is none
   double own() const { return sigma_; }             // sigma
+  bool as_read() const { return as_read_; }         // they scatter by no more than peaks are read to
 
   // The s-th of y made again.
   Eigen::VectorXd draw(std::uint64_t s) const;
@@ -57,6 +58,7 @@ class PeakScatter {
   Eigen::MatrixXd d_;
   std::vector<Eigen::Index> peaks_;
   double rho_ = 0, tau_ = 0, sigma_ = 0, p_ = 1;
+  bool as_read_ = true;
   std::vector<Eigen::LLT<Eigen::MatrixXd>> roots_;  // L L^T: the covariance of each test; empty where nothing scatters
 };
 

@@ -174,10 +174,9 @@ struct SlipsSeen {
   std::vector<bool> in_another_unit;  // of each test
 };
 
-// Springs, and contents that move, pull with the slip's acceleration as well: they make factors up to five, others in each test. So small a
-// one is a unit where most of the other tests are in a unit too, be it the right one.
+// So small a factor that springs make it, others in each test, is a unit where most of the other tests are in a unit too, be it the right one.
 bool may_be_physical(const std::vector<SlipScale>& scales, std::size_t i) {
-  if (std::abs(std::log(scales[i].factor)) > std::log(5)) return false;
+  if (std::abs(std::log(scales[i].factor)) > std::log(factor_of_springs)) return false;
   std::size_t others = 0, in_a_unit = 0;
   for (std::size_t j = 0; j < scales.size(); ++j) {
     if (j == i || !scales[j].judged) continue;

@@ -48,5 +48,7 @@ struct SlipScale {
       const;  // a ratio of two units of length is nearer than a fit tells, and the gain is more than chance
 };
 SlipScale slip_scale(const Bench&, std::size_t test);
+// Springs, and contents that move, pull with the slip's acceleration as well: they make factors up to this.
+inline constexpr double factor_of_springs = 5;
 
 }  // namespace freestand::measurement

@@ -9,6 +9,7 @@
 
 #include "measurement/fit/own_numbers.hpp"
 #include "measurement/laboratory/plausible.hpp"
+#include "measurement/laboratory/timing.hpp"
 #include "measurement/levels.hpp"
 #include "measurement/search.hpp"
 
@@ -51,12 +52,24 @@ void multiply(std::optional<double>& peak, double factor) {
 // What peaks would be if what was written is to be multiplied by that: slips, or rotations.
 Dataset read_as(const Dataset& data, Channel channel, double factor) {
   Dataset other = data;
+  (channel == Channel::rotation ? other.noise.rotation_rad : other.noise.slip_m) *= factor;
   for (Test& test : other.tests) {
     if (channel == Channel::rotation) multiply(test.peaks.peak_rotation_rad, factor);
     if (channel == Channel::slip) multiply(test.peaks.peak_slip_m, factor);
     if (channel == Channel::slip) multiply(test.peaks.residual_slip_m, factor);
   }
   return other;
+}
+
+// Tests with a peak that is told from standing still.
+std::size_t peaks_of_motion(const Bench& bench, Channel channel) {
+  const double least = least_motion(bench, channel);
+  return static_cast<std::size_t>(std::ranges::count_if(bench.data().tests, [&](const Test& test) {
+    const Peaks& p = test.peaks;
+    return channel == Channel::rotation
+               ? p.peak_rotation_rad.value_or(0) > least
+               : std::max(p.peak_slip_m.value_or(0), std::abs(p.residual_slip_m.value_or(0))) > least;
+  }));
 }
 
 bool tells_peaks(const Bench& bench, Channel channel) {
@@ -109,7 +122,7 @@ std::vector<OtherUnit> other_units(const Bench& bench, const ModelFit& fit, cons
   return found;
 }
 
-std::string peaks_in_another_unit(const Bench& bench, const ModelFit& base, double least_left_out, const Effort& effort,
+UnitOfPeaks peaks_in_another_unit(const Bench& bench, const ModelFit& base, double least_left_out, const Effort& effort,
                                   const Jobs& jobs) {
   struct Reading {
     Channel channel = Channel::slip;
@@ -126,6 +139,8 @@ std::string peaks_in_another_unit(const Bench& bench, const ModelFit& base, doub
       ++tried;
       const Dataset data = read_as(bench.data(), channel, factor);
       const Bench other(data, 0);
+      if (peaks_of_motion(other, channel) < peaks_of_motion(bench, channel))
+        continue;  // what is no motion is met by standing still
       ModelFit fit = fit_models(other, {{.model = base.model, .starts = {base.x}}}, effort, jobs)[0];
       if (fit.score >= best.left_out) continue;  // nor is it less of tests left out
       leave_out(other, {&fit}, effort, jobs);
@@ -134,14 +149,16 @@ std::string peaks_in_another_unit(const Bench& bench, const ModelFit& base, doub
   }
   const auto n = static_cast<double>(base.left_out.size());
   if (best.factor == 1 ||
-      tried * gsl_cdf_fdist_Q(base.mean_left_out() / std::max(best.left_out, least_score), n, n) > chance_level)
+      tried * gsl_cdf_fdist_Q(least_left_out / std::max(best.left_out, least_score), n, n) > chance_level)
     return {};
   const bool slips = best.channel == Channel::slip;
-  return fmt::format(
-      "if the {} are {:.3g} times what is written, the model by itself misses tests left out by {:.2g} (ln), and the "
-      "best of all that was tried by {:.2g} as they stand: are they in {}?",
-      slips ? "slips" : "rotations", best.factor, std::sqrt(best.left_out), std::sqrt(least_left_out),
-      slips ? "metres" : "radians");
+  return {fmt::format("if the {} are {:.3g} times what is written, the model by itself misses tests left out by {:.2g} "
+                      "(ln), and the best of all that was tried by {:.2g} as they stand: are they in {}?",
+                      slips ? "slips" : "rotations", best.factor, std::sqrt(best.left_out), std::sqrt(least_left_out),
+                      slips ? "metres" : "radians"),
+          best.factor};
 }
+
+bool UnitOfPeaks::may_be_physical() const { return std::abs(std::log(factor)) <= std::log(factor_of_springs); }
 
 }  // namespace freestand::measurement

@@ -24,8 +24,13 @@ std::vector<OtherUnit> other_units(const Bench&, const ModelFit&, const std::vec
 
 // Peaks of a whole set in another unit: does the base, refitted to slips or to rotations read in the other, miss tests left out by less than
 // whatever was fitted to them as they stand (least_left_out, the mean score)? It has no more numbers than the base, and fewer than any effect.
-// And by more than chance: were both as good, the ratio of their mean squares would be Fisher's F, and so many are tried. Empty: no.
-std::string peaks_in_another_unit(const Bench&, const ModelFit& base, double least_left_out, const Effort&,
+// And by more than chance: were that as good, the ratio of their mean squares would be Fisher's F, and so many readings are tried.
+struct UnitOfPeaks {
+  std::string told;  // empty: no
+  double factor = 1;
+  bool may_be_physical() const;  // what holds a specimen back makes as much
+};
+UnitOfPeaks peaks_in_another_unit(const Bench&, const ModelFit& base, double least_left_out, const Effort&,
                                   const Jobs&);
 
 }  // namespace freestand::measurement

@@ -264,9 +264,10 @@ class Findings {
           "tests that {}",
           all.size(), overturned ? "overturned" : "stood", overturned ? "always overturns" : "never overturns",
           overturned ? "stood" : "overturned");
-    say("{} of {} {} tests are missed ({:.1f} %): {} that stood were predicted to overturn, {} that overturned to "
-        "stand",
-        missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n, false_alarms, missed - false_alarms);
+    say("{} of {} {} tests are missed ({:.1f} %){}", missed, all.size(), whose, 100.0 * static_cast<double>(missed) / n,
+        missed == 0 ? std::string()
+                    : fmt::format(": {} that stood were predicted to overturn, {} that overturned to stand",
+                                  false_alarms, missed - false_alarms));
     const bool fitted = role == Role::calibration && c_.misfit;
     const OutcomeMisfit misfit = fitted ? *c_.misfit : outcome_misfit(probability, fallen, by_draw(all));
     say("the Brier score of the {} tests is {:.4f}{}; were the model's probabilities {}right, chance alone would make "

@@ -142,6 +142,7 @@ Chance chance_of_gain_of_peaks(const Bench& bench, const ModelFit& fitted, const
   };
   // What a change would have to make.
   Chance chance{.question = help_question, .about = {}, .observed = largest_share(-at.col(0))};
+  if (scatter.as_read()) return chance;
   weigh(chance, [&](std::uint64_t s) { return largest_share(scatter.weighed(scatter.draw(s))); });
   return chance;
 }

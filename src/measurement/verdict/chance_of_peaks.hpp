@@ -11,7 +11,7 @@ namespace freestand::measurement {
 PeakScatter scatter_of_peaks(const Bench&, const ModelFit&, const Jobs&);
 
 // Does any effect help? observed: the largest share of S that a change of the peaks takes away, which an effect makes at one of many
-// strengths or as it was fitted, beyond what the base's own numbers can.
+// strengths or as it was fitted, beyond what the base's own numbers can. Where the base misses peaks by no more than they are read to, none need help.
 Chance chance_of_gain_of_peaks(const Bench&, const ModelFit& base, const std::vector<const ModelFit*>& tried,
                                const Jobs&);
 
