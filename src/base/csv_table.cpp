@@ -30,15 +30,6 @@ int next_line(std::ifstream& stream, int line, std::string& text) {
   return -1;
 }
 
-std::ifstream open(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || is_folder(file))
-    throw Error(
-        shown(file.string(), longest_path) + " cannot be read (" + why_unreadable(file) + "): give the path of a table",
-        Exit::data);
-  return stream;
-}
-
 bool semicolons(const std::vector<std::string>& columns) {
   return columns.size() == 1 && columns.front().find(';') != std::string::npos;
 }
@@ -104,7 +95,7 @@ std::vector<std::string> csv_columns(const std::filesystem::path& file) {
 }
 
 CsvTable read_csv_table(const std::filesystem::path& file) {
-  std::ifstream stream = open(file);
+  std::ifstream stream = open_to_read(file, Exit::data);
   CsvTable table{file, {}, {}};
   std::string text, problems;
   const auto wrong = [&](int line, const std::string& what) {

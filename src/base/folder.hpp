@@ -2,7 +2,8 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
+#include <freestand/error.hpp>
+#include <fstream>
 #include <vector>
 
 namespace freestand {
@@ -12,8 +13,8 @@ bool is_there(const std::filesystem::path&);
 bool is_file(const std::filesystem::path&);
 bool is_folder(const std::filesystem::path&);
 
-// In words, of what could not be opened to be read.
-std::string why_unreadable(const std::filesystem::path&);
+// Throws Error with that exit code: it cannot be read, or is a folder.
+std::ifstream open_to_read(const std::filesystem::path& file, Exit);
 
 // In no order; nothing where there is no such folder.
 std::vector<std::filesystem::path> paths_in(const std::filesystem::path& folder);

@@ -75,10 +75,7 @@ struct Line {
 };
 
 std::vector<Line> lines_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || is_folder(file))
-    throw Error(shown(file.string(), longest_path) + " cannot be read (" + why_unreadable(file) + "): check the path",
-                Exit::data);
+  std::ifstream stream = open_to_read(file, Exit::data);
   std::vector<Line> lines;
   std::string text;
   for (int number = 1; std::getline(stream, text); ++number) {

@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "base/folder.hpp"
-#include "base/shown_text.hpp"
 #include "base/units.hpp"
 #include "measurement/data/test_file.hpp"
 #include "motion/component.hpp"
@@ -245,13 +244,8 @@ void check_noise(Section& file, const Dataset& set) {
 }  // namespace
 
 Dataset read_measurements(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
-  if (!stream || is_folder(path))
-    throw Error(
-        fmt::format("{} cannot be read ({}): check the path", shown(path.string(), longest_path), why_unreadable(path)),
-        Exit::data);
-  text << stream.rdbuf();
+  text << open_to_read(path, Exit::data).rdbuf();
 
   Problems problems(path.string());
   Dataset set;

@@ -4,11 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 
-#include "base/folder.hpp"
-#include "base/shown_text.hpp"
 #include "effects/effects.hpp"
 #include "study/calibrate_keys.hpp"
 #include "study/paths.hpp"
@@ -175,15 +171,7 @@ Validation parse_validation(const std::string& text, const std::filesystem::path
   return v;
 }
 
-Validation read_validation(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  if (!stream || is_folder(file))
-    throw Error(fmt::format("{} cannot be read ({}): check the path", shown(file.string(), longest_path),
-                            why_unreadable(file)));
-  text << stream.rdbuf();
-  return parse_validation(text.str(), file);
-}
+Validation read_validation(const std::filesystem::path& file) { return parse_validation(read_text(file), file); }
 
 ModelSpec model_spec(const Validation& v, bool as_fitted) {
   ModelSpec spec;

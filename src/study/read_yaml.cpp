@@ -72,12 +72,8 @@ void tell_no_yaml(const std::string& text, const YAML::Exception& error, Problem
 }  // namespace
 
 std::string read_text(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
   std::ostringstream text;
-  if (!stream || is_folder(file))
-    throw Error(fmt::format("{} cannot be read ({}): check the path", shown(file.string(), longest_path),
-                            why_unreadable(file)));
-  text << stream.rdbuf();
+  text << open_to_read(file, Exit::usage).rdbuf();
   return text.str();
 }
 

@@ -206,9 +206,9 @@ class LawMarchOf {
         if (may_strike) strikes_ = strikes_ | (falls & (when > Pack(0.0)));
         if (may_strike) reach_ = freestand::choose(falls, when, reach_);
       }
-      if (impact) blow = xsimd::max(reach_ - before_blow(y, reach_, number(Row::rest_rotation)), Pack(0.0));
-      if (impact) positive = positive | strikes_;
-      sure = sure & positive;
+      if (impact && bits(strikes_))
+        blow = xsimd::max(reach_ - before_blow(y, reach_, number(Row::rest_rotation)), Pack(0.0));
+      sure = sure & (impact ? positive | strikes_ : positive);
     });
     if (laws_.walls.any()) sure = sure & clear_of_walls(arc);
     return sure & kinks_.stay_or_turn(arc.kink, h_, strikes_, blow, lanes_here, reach_);

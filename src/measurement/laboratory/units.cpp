@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "measurement/fit/own_numbers.hpp"
 #include "measurement/laboratory/plausible.hpp"
@@ -18,7 +19,7 @@ namespace freestand::measurement {
 namespace {
 
 constexpr double ratios_of_lengths[] = {10, 100, 1000, 2.54, 25.4, 39.37, 12, 3.281};
-constexpr double radian_deg = 57.296;
+constexpr double ratios_of_angles[] = {57.296};
 
 // Either way round.
 bool is_near(double factor, double ratio) {
@@ -44,7 +45,7 @@ double left_with_own_friction(const Bench& bench, std::size_t i, Channel channel
   return simplex({friction_of_one_test}, left, {1.0}, 0.1, budget).score;
 }
 
-constexpr double least_score = 1e-12;  // peaks are read no better
+constexpr double least_score = 1e-12;  // of peaks that a model has made, to the last digits
 
 void multiply(std::optional<double>& peak, double factor) {
   if (peak) *peak *= factor;
@@ -72,18 +73,11 @@ std::size_t peaks_of_motion(const Bench& bench, Channel channel) {
   }));
 }
 
-bool tells_peaks(const Bench& bench, Channel channel) {
-  return std::ranges::any_of(bench.data().tests, [&](const Test& test) {
-    return channel == Channel::rotation ? test.peaks.peak_rotation_rad.has_value()
-                                        : test.peaks.peak_slip_m || test.peaks.residual_slip_m;
-  });
-}
-
 }  // namespace
 
 bool is_ratio_of_units(double factor) {
-  return is_near(factor, radian_deg) || std::any_of(std::begin(ratios_of_lengths), std::end(ratios_of_lengths),
-                                                    [&](double ratio) { return is_near(factor, ratio); });
+  const auto near = [&](double ratio) { return is_near(factor, ratio); };
+  return std::ranges::any_of(ratios_of_lengths, near) || std::ranges::any_of(ratios_of_angles, near);
 }
 
 bool is_in_a_unit(double factor) { return is_near(factor, 1) || is_ratio_of_units(factor); }
@@ -130,17 +124,17 @@ UnitOfPeaks peaks_in_another_unit(const Bench& bench, const ModelFit& base, doub
   } best{.left_out = least_left_out};
   double tried = 0;
   for (const Channel channel : {Channel::slip, Channel::rotation}) {
-    if (!tells_peaks(bench, channel)) continue;
+    const std::size_t moved = peaks_of_motion(bench, channel);
+    if (moved == 0) continue;
+    const std::span<const double> ratios =
+        channel == Channel::rotation ? std::span<const double>(ratios_of_angles) : ratios_of_lengths;
     std::vector<double> factors;
-    if (channel == Channel::rotation) factors = {radian_deg, 1 / radian_deg};
-    for (const double ratio : ratios_of_lengths)
-      if (channel == Channel::slip) factors.insert(factors.end(), {ratio, 1 / ratio});
+    for (const double ratio : ratios) factors.insert(factors.end(), {ratio, 1 / ratio});
     for (const double factor : factors) {
       ++tried;
       const Dataset data = read_as(bench.data(), channel, factor);
       const Bench other(data, 0);
-      if (peaks_of_motion(other, channel) < peaks_of_motion(bench, channel))
-        continue;  // what is no motion is met by standing still
+      if (peaks_of_motion(other, channel) < moved) continue;  // what is no motion is met by standing still
       ModelFit fit = fit_models(other, {{.model = base.model, .starts = {base.x}}}, effort, jobs)[0];
       if (fit.score >= best.left_out) continue;  // nor is it less of tests left out
       leave_out(other, {&fit}, effort, jobs);
